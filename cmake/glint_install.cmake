@@ -1,0 +1,1 @@
+# Placeholder until the front door is built.

@@ -1,0 +1,239 @@
+/* libglint: radiance factors of surfaces made of discrete microfacets.
+ *
+ * Conventions, for every function below:
+ *  - Directions are unit vectors that point away from the surface, in the local frame: z is the shading normal, x the
+ *    tangent. wo goes to the viewer, wi to the light.
+ *  - Lengths are metres, angles radians, solid angles steradians, colours linear RGB. alpha is the microfacet roughness
+ *    (the square of the roughness that artists dial). Densities count facets per square metre of surface.
+ *  - Set-up may fail and says why. Evaluation may not: whatever bits come in, what goes out is finite and not negative;
+ *    nonsense gives zero.
+ *  - A material never changes once it is made; any number of threads may share it. Evaluation allocates nothing, locks
+ *    nothing and has no state of its own.
+ *  - The same input gives the same bits on every machine, whatever the vector width.
+ */
+#ifndef GLINT_H
+#define GLINT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GLINT_VERSION_MAJOR 0
+#define GLINT_VERSION_MINOR 1
+#define GLINT_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define GLINT_API __attribute__((visibility("default")))
+#else
+#define GLINT_API
+#endif
+
+/* "0.1.0": the version of the library that is loaded, which may be newer than this header. */
+GLINT_API const char *glint_version(void);
+
+/* ---- results ---- */
+
+typedef enum glint_result {
+    GLINT_OK = 0,
+    GLINT_ERROR_ARGUMENT,    /* a pointer or a size that cannot be */
+    GLINT_ERROR_RANGE,       /* a value outside its range; the message names it */
+    GLINT_ERROR_UNSUPPORTED, /* the model does not do this; see glint_model_features */
+    GLINT_ERROR_MEMORY       /* the allocator returned NULL */
+} glint_result;
+
+/* One sentence in English without a full stop; never NULL. */
+GLINT_API const char *glint_result_text(glint_result result);
+
+/* ---- models ---- */
+
+typedef enum glint_model {
+    GLINT_MODEL_SMOOTH = 0, /* infinitely many facets: Cook-Torrance */
+    GLINT_MODEL_COUNTING    /* a binomial count of the lit facets under the footprint */
+} glint_model;
+
+/* What a model can do. A material of a model without a feature refuses options that ask for it. */
+typedef enum glint_feature {
+    GLINT_FEATURE_DISCRETE = 1 << 0,              /* shows single facets */
+    GLINT_FEATURE_GGX = 1 << 1,
+    GLINT_FEATURE_BECKMANN = 1 << 2,
+    GLINT_FEATURE_ANISOTROPIC = 1 << 3,           /* alpha_x != alpha_y */
+    GLINT_FEATURE_SAMPLE = 1 << 4,                /* sample and pdf */
+    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,       /* a glint_surface may differ from point to point */
+    GLINT_FEATURE_EQUAL_AREA = 1 << 6,            /* facets of equal area */
+    GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7   /* facets of equal projected area */
+} glint_feature;
+
+/* How many models there are; their numbers run from 0. */
+GLINT_API uint32_t glint_model_count(void);
+/* The name that files and commands use ("counting"), or NULL when there is no such model. */
+GLINT_API const char *glint_model_name(glint_model model);
+/* The model with this name; GLINT_ERROR_RANGE when there is none, and *model stays as it was. */
+GLINT_API glint_result glint_model_find(const char *name, glint_model *model);
+/* A bit set of glint_feature; 0 when there is no such model. */
+GLINT_API uint32_t glint_model_features(glint_model model);
+
+/* ---- materials ---- */
+
+typedef enum glint_distribution { GLINT_DISTRIBUTION_GGX = 0, GLINT_DISTRIBUTION_BECKMANN } glint_distribution;
+
+typedef enum glint_fresnel {
+    GLINT_FRESNEL_SCHLICK = 0, /* from f0 to f90 */
+    GLINT_FRESNEL_DIELECTRIC,  /* exact, unpolarised, from ior */
+    GLINT_FRESNEL_CONDUCTOR    /* exact, unpolarised, from eta and k */
+} glint_fresnel;
+
+/* What all facets have in common. */
+typedef enum glint_weighting {
+    GLINT_WEIGHTING_EQUAL_AREA = 0,      /* their area: normals follow D / integral of D (Kneiphof and Klein 2024, Eq. 12) */
+    GLINT_WEIGHTING_EQUAL_PROJECTED_AREA /* their area seen from above: normals follow D(h)(n.h), as a flat grid of flakes */
+} glint_weighting;
+
+/* What textures say about one point of the surface. */
+typedef struct glint_surface {
+    float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
+    float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */
+    float f0[3], f90[3];    /* [0, 1], facet reflectance head-on and at grazing angles, for GLINT_FRESNEL_SCHLICK */
+    float facets_per_m2;    /* >= 0; 0 gives the smooth limit */
+    float discreteness;     /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
+} glint_surface;
+
+typedef struct glint_allocator {
+    void *(*allocate)(size_t byte_count, void *user); /* aligned to 64 bytes; NULL when there is none */
+    void (*release)(void *memory, void *user);
+    void *user;
+} glint_allocator;
+
+typedef struct glint_material_options {
+    size_t size; /* set by GLINT_MATERIAL_OPTIONS_INIT */
+    glint_model model;
+    glint_distribution distribution;
+    glint_fresnel fresnel;
+    glint_weighting weighting;
+    glint_surface surface;       /* where a call brings no surface of its own */
+    float ior;                   /* (1, 10], for GLINT_FRESNEL_DIELECTRIC */
+    float eta[3], k[3];          /* complex refractive index per channel, (0, 20], [0, 20], for GLINT_FRESNEL_CONDUCTOR */
+    float facet_alpha;           /* [0, 1], roughness of one facet: how far its own reflection spreads */
+    float coverage;              /* [0, 1], share of the surface that carries facets; elsewhere their lobe is absent */
+    float elongation;            /* [1, 1e4], length over width of a facet, along the tangent */
+    uint32_t seed;               /* which facets there are */
+    glint_allocator allocator;   /* all NULL: malloc and free */
+} glint_material_options;
+
+/* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
+#define GLINT_SURFACE_INIT                                                                                             \
+    {                                                                                                                  \
+        0.25F, 0.25F, { 0.0F, 0.0F, 0.0F }, { 1.0F, 1.0F, 1.0F }, { 1.0F, 1.0F, 1.0F }, 1e8F, 1.0F                     \
+    }
+#define GLINT_MATERIAL_OPTIONS_INIT                                                                                    \
+    {                                                                                                                  \
+        sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
+            GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
+            1.0F, 1.0F, 0U, { 0, 0, 0 }                                                                                \
+    }
+
+typedef struct glint_material glint_material;
+
+/* Checks the options, bakes and freezes. On failure *material is NULL and, where message is not NULL, it holds at most
+ * message_size bytes (terminator included) that name the option, its value and its range. */
+GLINT_API glint_result glint_material_create(const glint_material_options *options, glint_material **material,
+                                             char *message, size_t message_size);
+/* NULL is allowed. */
+GLINT_API void glint_material_destroy(glint_material *material);
+GLINT_API glint_model glint_material_model(const glint_material *material);
+/* The surface that a call without one uses; start from it to change a part. */
+GLINT_API glint_surface glint_material_surface(const glint_material *material);
+
+/* ---- evaluation ---- */
+
+/* What a pixel sees of the surface: where it is and how far a step of one pixel moves on it. */
+typedef struct glint_footprint {
+    double u, v;               /* metres on the surface */
+    float dudx, dudy;          /* metres per pixel, to the right (x) and downwards (y) */
+    float dvdx, dvdy;
+    uint32_t seed;             /* which object this is: added to the material's seed; 0 is fine */
+} glint_footprint;
+
+typedef enum glint_light_kind {
+    GLINT_LIGHT_CAP = 0 /* a round light around wi, small enough that D hardly changes across it */
+} glint_light_kind;
+
+typedef struct glint_light {
+    glint_light_kind kind;
+    float solid_angle_sr; /* > 0, at most 2 pi */
+} glint_light;
+
+/* All that evaluation knows about one point and one light. */
+typedef struct glint_value {
+    float rgb[3];         /* f(wo, wi) * |cos theta_i|, discrete */
+    float smooth[3];      /* the same without discreteness: the expectation of rgb over seeds */
+    float facet_count;    /* N, facets under the footprint */
+    float lit_probability; /* p, that one facet reflects the light to the viewer */
+} glint_value;
+
+/* Radiance factor f(wo, wi) * |cos theta_i|, averaged over the footprint: a light of radiance L and solid angle w adds
+ * L * w * rgb to the pixel.
+ *
+ * surface    NULL: the material's own
+ * footprint  NULL or degenerate: the smooth limit
+ * light      NULL or with a solid angle that is not positive: the smooth limit
+ *
+ * Returns linear RGB, zero where wo or wi is below the horizon.
+ * L_smooth * b(N, p) / (N p), b a binomial count: Kneiphof and Klein 2024, Eq. 21.
+ */
+GLINT_API void glint_eval(const glint_material *material, const glint_surface *surface,
+                          const glint_footprint *footprint, const float wo[3], const float wi[3],
+                          const glint_light *light, float rgb[3]);
+
+/* The same with everything that it knows. */
+GLINT_API void glint_eval_value(const glint_material *material, const glint_surface *surface,
+                                const glint_footprint *footprint, const float wo[3], const float wi[3],
+                                const glint_light *light, glint_value *value);
+
+typedef struct glint_sample {
+    float wi[3];
+    float pdf;       /* per steradian */
+    float weight[3]; /* smooth f(wo, wi) * |cos theta_i| / pdf: the mean over seeds */
+} glint_sample;
+
+/* Draws wi from a density close to the smooth lobes (visible normals of the facets, cosine for the diffuse part).
+ *
+ * random  three uniforms in [0, 1): the lobe and the direction
+ *
+ * Returns 1, or 0 when there is no light that way (then *sample is all zero). Heitz 2018; Dupuy and Benyoub 2023.
+ */
+GLINT_API int glint_sample_direction(const glint_material *material, const glint_surface *surface, const float wo[3],
+                                     const float random[3], glint_sample *sample);
+
+/* Density with which glint_sample_direction draws wi, per steradian. */
+GLINT_API float glint_pdf(const glint_material *material, const glint_surface *surface, const float wo[3],
+                          const float wi[3]);
+
+/* Many points under one light each, as a structure of arrays of count entries. */
+typedef struct glint_batch {
+    size_t size; /* set by GLINT_BATCH_INIT */
+    size_t count;
+    const double *u, *v;
+    const float *dudx, *dudy, *dvdx, *dvdy;
+    const uint32_t *seed;          /* NULL: 0 everywhere */
+    const float *wo[3], *wi[3];    /* x, y and z apart */
+    const float *solid_angle_sr;
+    const glint_surface *surfaces; /* NULL: the material's own everywhere */
+    float *rgb[3];                 /* out */
+} glint_batch;
+
+#define GLINT_BATCH_INIT                                                                                               \
+    {                                                                                                                  \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }                       \
+    }
+
+/* glint_eval for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is missing. */
+GLINT_API glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
