@@ -1,0 +1,1 @@
+# image_oiio.cpp and what goes with it

@@ -1,0 +1,1 @@
+# gltf readers, presets, describe
