@@ -1,0 +1,139 @@
+/* glint eval: a material's radiance factor for queries on standard input, so that other programs can ask libglint. */
+#include <stdio.h>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/eval_query.h"
+#include "io/scene_file.h"
+#include "scene/surface.h"
+
+typedef struct eval_values {
+    const char *material;
+    int model; /* see arguments_model_choice */
+    bool json;
+} eval_values;
+
+static const argument_rule rules[] = {
+    { .name = "material",
+      .value = "PRESET",
+      .help = "a preset (see glint materials) or a path to one; required",
+      .kind = ARGUMENT_TEXT,
+      .target = offsetof(eval_values, material) },
+    { .name = "model",
+      .help = "auto is counting where the material has glints",
+      .kind = ARGUMENT_CHOICE,
+      .choice = arguments_model_choice,
+      .target = offsetof(eval_values, model) },
+    { .name = "json",
+      .help = "print an array of objects",
+      .kind = ARGUMENT_FLAG,
+      .target = offsetof(eval_values, json) },
+};
+
+static const argument_syntax syntax = {
+    .command = "glint eval",
+    .operands = "--material PRESET",
+    .summary = "Reads one query a line on standard input, fourteen numbers parted by blanks:\n"
+               "  u v  dudx dudy dvdx dvdy  wox woy woz  wix wiy wiz  solid_angle seed\n"
+               "and writes one line of r g b for each: f(wo, wi) * |cos theta_i|. Lengths are metres, the\n"
+               "solid angle steradians, directions unit vectors away from the surface (z is the normal).",
+    .rules = rules,
+    .rule_count = sizeof rules / sizeof rules[0],
+};
+
+static glint_material *open_material(const eval_values *values, report *r)
+{
+    scene s = { 0 };
+    scene_material m;
+    if (!preset_read(values->material, &s, &m, r)) {
+        scene_free(&s);
+        return NULL;
+    }
+    const bool automatic = values->model == 0;
+    glint_material_options options =
+        scene_base_options(&m, automatic ? GLINT_MODEL_COUNTING : (glint_model)(values->model - 1));
+    const scene_texels texels = scene_texels_of(&m);
+    options.surface = scene_base_surface(&m, &texels);
+    if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)
+        report_warning(r, "%s: the glints are in the clear coat, and eval answers for the base layer",
+                       values->material);
+    glint_material *material = NULL;
+    char message[256] = "";
+    if (glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
+        report_error(r, "%s: %s", values->material, message);
+    scene_free(&s);
+    return material;
+}
+
+static void write_text(const glint_material *material, const eval_query *q)
+{
+    float rgb[3];
+    glint_eval(material, NULL, &q->footprint, q->wo, q->wi, &q->light, rgb);
+    printf("%.9g %.9g %.9g\n", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+}
+
+static bool write_object(const glint_material *material, const eval_query *q, bool first)
+{
+    glint_value value;
+    glint_eval_value(material, NULL, &q->footprint, q->wo, q->wi, &q->light, &value);
+    document *d = document_object();
+    document_set_numbers(d, "rgb", value.rgb, 3);
+    document_set_numbers(d, "smooth", value.smooth, 3);
+    document_set_number(d, "facet_count", (double)value.facet_count);
+    document_set_number(d, "lit_probability", (double)value.lit_probability);
+    fputs(first ? "\n" : ",\n", stdout);
+    return document_print(d, stdout);
+}
+
+static int answer(const glint_material *material, bool json, messages *m)
+{
+    size_t line_number = 0;
+    eval_query query;
+    eval_query_result result = EVAL_QUERY_READ;
+    /* A program that asks through a pipe waits for each answer before it asks again. */
+    setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
+    if (json)
+        putchar('[');
+    for (bool first = true; !ferror(stdout); first = false) {
+        result = eval_query_read(stdin, &line_number, &query, &m->report);
+        if (result != EVAL_QUERY_READ)
+            break;
+        if (!json) {
+            write_text(material, &query);
+        } else if (!write_object(material, &query, first) && !ferror(stdout)) {
+            report_error(&m->report, "standard input: line %zu: out of memory for the answer", line_number);
+            result = EVAL_QUERY_WRONG;
+            break;
+        }
+    }
+    if (json)
+        fputs("]\n", stdout);
+    if (result != EVAL_QUERY_WRONG)
+        return COMMAND_DONE;
+    fprintf(stderr, "glint: %s\n", m->report.error);
+    return COMMAND_BAD_INPUT;
+}
+
+int command_eval(int argc, char **argv)
+{
+    eval_values values = { 0 };
+    switch (arguments_parse(&syntax, argc, argv, &values, NULL)) {
+    case ARGUMENTS_HELP:
+        return COMMAND_DONE;
+    case ARGUMENTS_WRONG:
+        return COMMAND_WRONG_USAGE;
+    case ARGUMENTS_OK:
+        break;
+    }
+    if (!values.material)
+        return arguments_wrong(&syntax, "--material PRESET is missing");
+    messages m;
+    messages_begin(&m, values.json);
+    glint_material *material = open_material(&values, &m.report);
+    if (!material)
+        return messages_fail(&m);
+    const int code = answer(material, values.json, &m);
+    glint_material_destroy(material);
+    messages_end(&m);
+    return code;
+}

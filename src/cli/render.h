@@ -1,0 +1,35 @@
+/* What glint render was asked for and what it did. */
+#ifndef CLI_RENDER_H
+#define CLI_RENDER_H
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "preview/preview.h"
+
+typedef struct render_values {
+    const char *output, *camera, *variant;
+    assignments materials;
+    int64_t size[2], tile[4]; /* tile: x, y, width, height; width 0: the whole picture */
+    int64_t spp, threads, seed, bounces;
+    int model;          /* see arguments_model_choice */
+    double exposure_ev; /* NAN: not given */
+    bool aov, json;
+} render_values;
+
+typedef struct render_record {
+    const char *file;
+    const render_values *values;
+    double read_s, write_s, total_s;
+    preview_statistics statistics;
+} render_record;
+
+/* Writes the picture with the settings that its pixels depend on as metadata: no time, no place, no number of threads,
+ * so that the same command gives the same bytes anywhere. */
+bool render_write(const render_record *record, const image *picture, report *r);
+
+/* The document of --json; takes the warnings. */
+int render_print_document(const render_record *record, document *warnings);
+/* One line for people. */
+void render_print_line(const render_record *record);
+
+#endif
