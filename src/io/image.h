@@ -1,4 +1,4 @@
-/* Image files and filtered texture lookups. OpenImageIO does the work; image_oiio.cpp is the only file that includes it. */
+/* Pictures and texture lookups. OpenImageIO does the work; image_oiio.cpp is the only file that includes it. */
 #ifndef IO_IMAGE_H
 #define IO_IMAGE_H
 
@@ -15,37 +15,52 @@ extern "C" {
 
 /* ---- pictures that the tools make ---- */
 
-/* Float pixels with named channels, interleaved, row 0 on top. */
+/* Float pixels with named channels, interleaved, row 0 on top. Light is linear, and R, G, B are multiplied by A
+ * (coverage), as OpenEXR has it. */
 typedef struct image {
     int width, height, channel_count;
     char (*channel_names)[32]; /* "R", "smooth.G", "glints.N" */
     float *pixels;
 } image;
 
+/* Pixels of 0 and empty names. Sizes below 1, and those that memory cannot hold, are errors; *out is then zeroed. */
 bool image_allocate(image *out, int width, int height, int channel_count, report *r);
 void image_free(image *i);
+/* The index of a channel, or -1. */
+int image_channel(const image *i, const char *name);
+
+/* Any format of OpenImageIO, its first picture. Float files come as they are; what stores 8 or 16-bit integers is taken
+ * for sRGB with straight alpha and decoded. Channels may come in another order than they were written in: look them up.
+ */
 bool image_read(const char *path, image *out, report *r);
 
-typedef struct image_text { const char *key, *value; } image_text; /* metadata */
+typedef struct image_text {
+    const char *key, *value;
+} image_text; /* metadata */
 
-/* Scene-linear float32 OpenEXR with all channels. The file appears under its name only when it is whole. */
+/* OpenEXR, float32, ZIP, every channel under its name. The file appears under its name only when it is whole. */
 bool image_write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r);
-/* R, G, B (and A) as 8-bit sRGB after 2^exposure_ev; values above 1 clip. */
+/* R, G, B (and A) as 8-bit sRGB after 2^exposure_ev, with straight alpha; values above 1 clip, NaN is black. Atomic,
+ * too. */
 bool image_write_png(const char *path, const image *i, float exposure_ev, report *r);
 
 /* ---- textures ---- */
 
 typedef struct textures textures; /* all images of a scene, with mip levels, shared by all threads */
 
-/* Opens every image that a material uses; a missing or broken one is an error that names it. s must outlive the result. */
+/* Opens and decodes every image that a material uses, once as colour and once as data where it is used as both. A
+ * missing or broken one is an error that names it. PNG, JPEG and WebP, at most 16384 pixels on a side and 2^26 in all.
+ */
 bool textures_open(const scene *s, textures **out, report *r);
+/* NULL is allowed. */
 void textures_close(textures *t);
 
-/* Filtered lookup: s, t are the texture coordinates before KHR_texture_transform (which is applied here, derivatives too),
- * ds/dx ... their change per pixel. Colours come linear. Missing channels: alpha 1, grey is spread to RGB.
- * No allocation after a thread's first call. The result does not depend on threads or on earlier lookups. */
-void texture_lookup(const textures *t, const scene_texture *which, float s, float t_, float dsdx, float dtdx, float dsdy,
-                    float dtdy, float rgba[4]);
+/* Filtered lookup: s, t are the texture coordinates before KHR_texture_transform (which is applied here, derivatives
+ * too), ds/dx ... their change per pixel; (0, 0) is the upper left corner. Colours come linear. Missing channels: alpha
+ * 1, grey is spread to RGB; no texture is 1 everywhere. Finite whatever the coordinates are. No allocation after a
+ * thread's first call. The result does not depend on threads or on earlier lookups. */
+void texture_lookup(const textures *t, const scene_texture *which, float s, float t_, float dsdx, float dtdx,
+                    float dsdy, float dtdy, float rgba[4]);
 
 #ifdef __cplusplus
 }

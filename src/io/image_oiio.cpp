@@ -1,0 +1,474 @@
+/* All that OpenImageIO does for us: image files in and out, decoded textures, filtered lookups. */
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/texture.h>
+
+#include "io/image.h"
+#include "io/image_bytes.h"
+#include "io/mipmap.h"
+#include "io/output_file.h"
+#include "io/srgb.h"
+#include "io/texture_transform.h"
+
+namespace
+{
+
+/* Runs work and turns what it throws into an error about name. */
+template <class Work> bool guarded(const char *name, report *r, Work work) noexcept
+{
+    try {
+        return work();
+    } catch (const std::bad_alloc &) {
+        return report_error(r, "%s: does not fit into memory", name);
+    } catch (const std::exception &problem) {
+        return report_error(r, "%s: %s", name, problem.what());
+    } catch (...) {
+        return report_error(r, "%s: OpenImageIO failed without saying why", name);
+    }
+}
+
+/* OpenImageIO separates several messages by line breaks; ours are one line. */
+std::string one_line(std::string text)
+{
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    for (char &c : text)
+        if (c == '\n')
+            c = ';';
+    return text;
+}
+
+/* ---- pictures in ---- */
+
+bool copy_channel_names(const OIIO::ImageSpec &spec, const char *path, image *out, report *r)
+{
+    for (int c = 0; c < spec.nchannels; c++) {
+        const std::string &name = spec.channelnames[static_cast<size_t>(c)];
+        if (name.size() >= sizeof out->channel_names[c])
+            return report_error(r, "%s: the channel name \"%s\" is too long, expected at most %zu bytes", path,
+                                name.c_str(), sizeof out->channel_names[c] - 1);
+        std::memcpy(out->channel_names[c], name.c_str(), name.size() + 1);
+    }
+    return true;
+}
+
+/* From encoded colours and straight alpha to light multiplied by alpha. */
+void decode_picture(const OIIO::ImageSpec &spec, image *out)
+{
+    const size_t pixel_count = static_cast<size_t>(out->width) * static_cast<size_t>(out->height);
+    for (size_t p = 0; p < pixel_count; p++) {
+        float *pixel = out->pixels + p * static_cast<size_t>(out->channel_count);
+        const double alpha = spec.alpha_channel >= 0 ? static_cast<double>(pixel[spec.alpha_channel]) : 1.0;
+        for (int c = 0; c < out->channel_count; c++)
+            if (c != spec.alpha_channel)
+                pixel[c] = static_cast<float>(srgb_decode(static_cast<double>(pixel[c])) * alpha);
+    }
+}
+
+bool read_picture(const char *path, image *out, report *r)
+{
+    OIIO::ImageSpec straight_alpha;
+    straight_alpha.attribute("oiio:UnassociatedAlpha", 1);
+    const auto file = OIIO::ImageInput::open(path, &straight_alpha);
+    if (!file)
+        return report_error(r, "%s: cannot be read: %s", path, one_line(OIIO::geterror()).c_str());
+    const OIIO::ImageSpec &spec = file->spec();
+    if (spec.depth > 1 || spec.deep)
+        return report_error(r, "%s: is a volume or a deep image, expected a flat one", path);
+    if (!image_allocate(out, spec.width, spec.height, spec.nchannels, r) || !copy_channel_names(spec, path, out, r))
+        return false;
+    if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out->pixels) || file->has_error())
+        return report_error(r, "%s: cannot be read: %s", path, one_line(file->geterror()).c_str());
+    if (spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16)
+        decode_picture(spec, out);
+    return true;
+}
+
+/* ---- pictures out ---- */
+
+/* Lets OpenImageIO write through an output_file, which keeps the first error. */
+class output_proxy : public OIIO::Filesystem::IOProxy
+{
+  public:
+    explicit output_proxy(output_file *file) : IOProxy("", Write), file_(file)
+    {
+    }
+    const char *proxytype() const override
+    {
+        return "output_file";
+    }
+    int64_t tell() override
+    {
+        return output_file_tell(file_);
+    }
+    bool seek(int64_t offset) override
+    {
+        return output_file_seek(file_, offset);
+    }
+    size_t write(const void *data, size_t byte_count) override
+    {
+        return output_file_write(file_, data, byte_count) ? byte_count : 0;
+    }
+
+  private:
+    output_file *file_;
+};
+
+/* Encodes in the named format. A failure of the disk is left to the commit, which knows the system's reason. */
+bool encode(const char *format, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void *pixels, output_file *file,
+            const char *path, report *r)
+{
+    output_proxy proxy(file);
+    OIIO::Filesystem::IOProxy *pointer = &proxy;
+    const auto out = OIIO::ImageOutput::create(format);
+    if (!out)
+        return report_error(r, "%s: %s", path, one_line(OIIO::geterror()).c_str());
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &pointer);
+    const bool done = out->open(path, spec) && out->write_image(type, pixels) && out->close();
+    const bool disk_failed = !output_file_write(file, "", 0);
+    if (!done && !disk_failed)
+        return report_error(r, "%s: cannot be encoded: %s", path, one_line(out->geterror()).c_str());
+    return true;
+}
+
+bool write_picture(const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type, const void *pixels,
+                   const char *path, report *r)
+{
+    output_file *file = output_file_open(path, r);
+    if (!file)
+        return false;
+    if (guarded(path, r, [&] { return encode(format, spec, type, pixels, file, path, r); }))
+        return output_file_commit(file, r);
+    output_file_abort(file);
+    return false;
+}
+
+bool check_channel_names(const char *path, const image *i, report *r)
+{
+    std::set<std::string> names;
+    for (int c = 0; c < i->channel_count; c++) {
+        if (i->channel_names[c][0] == '\0')
+            return report_error(r, "%s: channel %d has no name", path, c);
+        if (!names.insert(i->channel_names[c]).second)
+            return report_error(r, "%s: two channels are called \"%s\"", path, i->channel_names[c]);
+    }
+    return true;
+}
+
+bool write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
+{
+    if (!check_channel_names(path, i, r))
+        return false;
+    OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
+    for (int c = 0; c < i->channel_count; c++)
+        spec.channelnames[static_cast<size_t>(c)] = i->channel_names[c];
+    for (size_t m = 0; m < metadata_count; m++)
+        spec.attribute(metadata[m].key, metadata[m].value);
+    spec.attribute("compression", "zip");
+    return write_picture("openexr", spec, OIIO::TypeDesc::FLOAT, i->pixels, path, r);
+}
+
+uint8_t encoded_byte(double linear)
+{
+    if (!(linear > 0.0))
+        return 0;
+    return linear >= 1.0 ? 255 : static_cast<uint8_t>(std::lrint(srgb_encode(linear) * 255.0));
+}
+
+bool write_png(const char *path, const image *i, float exposure_ev, report *r)
+{
+    const int source[4] = { image_channel(i, "R"), image_channel(i, "G"), image_channel(i, "B"),
+                            image_channel(i, "A") };
+    if (source[0] < 0 || source[1] < 0 || source[2] < 0)
+        return report_error(r, "%s: the picture has no channels R, G and B", path);
+    const size_t channel_count = source[3] < 0 ? 3 : 4;
+    const size_t pixel_count = static_cast<size_t>(i->width) * static_cast<size_t>(i->height);
+    const double gain = std::exp2(static_cast<double>(exposure_ev));
+    std::vector<uint8_t> bytes(pixel_count * channel_count);
+    for (size_t p = 0; p < pixel_count; p++) {
+        const float *pixel = i->pixels + p * static_cast<size_t>(i->channel_count);
+        const double alpha = channel_count == 4 ? static_cast<double>(pixel[source[3]]) : 1.0;
+        /* Light without coverage (a glow on nothing) has no straight colour; it is kept as it is. */
+        const double straight = alpha > 0.0 ? gain / alpha : gain;
+        for (size_t c = 0; c < 3; c++)
+            bytes[p * channel_count + c] = encoded_byte(static_cast<double>(pixel[source[c]]) * straight);
+        if (channel_count == 4)
+            bytes[p * 4 + 3] =
+                alpha > 0.0 ? static_cast<uint8_t>(std::lrint(std::fmin(alpha, 1.0) * 255.0)) : static_cast<uint8_t>(0);
+    }
+    OIIO::ImageSpec spec(i->width, i->height, static_cast<int>(channel_count), OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
+}
+
+/* ---- textures ---- */
+
+/* Shows a mipmap to the image cache as if it were a file. The cache has every level as one tile of ours from the start,
+ * so it asks for sizes only, unless it drops a tile. */
+class mipmap_input final : public OIIO::ImageInput
+{
+  public:
+    const char *format_name() const override
+    {
+        return "glint mipmap";
+    }
+    bool open(const std::string &name, OIIO::ImageSpec &spec) override
+    {
+        errorfmt("{}: no mipmap was given", name);
+        spec = m_spec;
+        return false;
+    }
+    bool open(const std::string &name, OIIO::ImageSpec &spec, const OIIO::ImageSpec &config) override
+    {
+        const OIIO::ParamValue *given = config.find_attribute(attribute_name, OIIO::TypeDesc::PTR);
+        if (!given)
+            return open(name, spec);
+        source_ = *static_cast<const mipmap *const *>(given->data());
+        seek_subimage(0, 0);
+        spec = m_spec;
+        return true;
+    }
+    bool close() override
+    {
+        source_ = nullptr;
+        return true;
+    }
+    int current_miplevel() const override
+    {
+        return level_;
+    }
+    bool seek_subimage(int subimage, int level) override
+    {
+        if (!source_ || subimage != 0 || level < 0 || level >= source_->level_count)
+            return false;
+        level_ = level;
+        m_spec = OIIO::ImageSpec(source_->levels[level].width, source_->levels[level].height, source_->channel_count,
+                                 texel_type(*source_));
+        return true;
+    }
+    bool read_native_scanline(int subimage, int level, int y, int, void *data) override
+    {
+        if (!seek_subimage(subimage, level) || y < 0 || y >= m_spec.height)
+            return false;
+        const size_t row_size = static_cast<size_t>(m_spec.width) * static_cast<size_t>(m_spec.nchannels);
+        std::memcpy(data, source_->levels[level].texels + static_cast<size_t>(y) * row_size,
+                    row_size * sizeof(uint16_t));
+        return true;
+    }
+
+    static OIIO::TypeDesc texel_type(const mipmap &m)
+    {
+        return m.coding == MIPMAP_HALF ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT16;
+    }
+    static OIIO::ImageInput *create()
+    {
+        return new mipmap_input;
+    }
+    static constexpr const char *attribute_name = "glint:mipmap";
+
+  private:
+    const mipmap *source_ = nullptr;
+    int level_ = 0;
+};
+
+/* Spreads grey and alpha, which lie in the first two of four channels. */
+void spread_grey(mipmap *m)
+{
+    const mipmap_level &level = m->levels[0];
+    const size_t count = static_cast<size_t>(level.width) * static_cast<size_t>(level.height);
+    for (uint16_t *texel = level.texels; texel != level.texels + 4 * count; texel += 4) {
+        texel[3] = texel[1];
+        texel[1] = texel[2] = texel[0];
+    }
+}
+
+/* Decodes into level 0 as 16-bit integers; 8-bit codes v become 257 v, the same fraction. */
+bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, report *r)
+{
+    OIIO::Filesystem::IOMemReader reader(bytes.bytes, bytes.byte_count);
+    OIIO::Filesystem::IOProxy *proxy = &reader;
+    OIIO::ImageSpec config;
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    config.attribute("oiio:UnassociatedAlpha", 1); /* glTF: alpha is straight */
+    const auto file = OIIO::ImageInput::create(bytes.format);
+    OIIO::ImageSpec spec;
+    if (!file || !file->open(std::string("texture.") + bytes.format, spec, config))
+        return report_error(r, "%s: is broken: %s", name, one_line(file ? file->geterror() : OIIO::geterror()).c_str());
+    if (spec.nchannels < 1 || spec.nchannels > 4)
+        return report_error(r, "%s: has %d channels, expected 1 to 4", name, spec.nchannels);
+    const int channel_count = spec.nchannels == 2 ? 4 : spec.nchannels;
+    if (!mipmap_allocate(out, spec.width, spec.height, channel_count, name, r))
+        return false;
+    const bool read = file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, out->levels[0].texels,
+                                       static_cast<OIIO::stride_t>(sizeof(uint16_t)) * channel_count);
+    const std::string complaint = one_line(file->geterror());
+    /* The JPEG reader fills what is missing with grey and calls it success. */
+    if (!read || complaint.find("Premature end") != std::string::npos)
+        return report_error(r, "%s: is broken: %s", name, complaint.c_str());
+    if (!complaint.empty())
+        report_warning(r, "%s: %s", name, complaint.c_str());
+    if (spec.nchannels == 2)
+        spread_grey(out);
+    return true;
+}
+
+bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
+{
+    image_bytes bytes;
+    if (!image_bytes_load(&picture, &bytes, r))
+        return false;
+    const bool decoded = guarded(picture.name, r, [&] { return decode_texels(bytes, picture.name, out, r); });
+    image_bytes_free(&bytes);
+    if (!decoded)
+        return false;
+    if (srgb && !mipmap_decode_srgb(out))
+        return report_error(r, "%s: does not fit into memory", picture.name);
+    mipmap_build(out);
+    return true;
+}
+
+std::vector<const scene_texture *> textures_of(const scene_material &m)
+{
+    return { &m.base_color_texture,          &m.metallic_roughness_texture, &m.normal_texture,
+             &m.occlusion_texture,           &m.emissive_texture,           &m.specular_texture,
+             &m.specular_color_texture,      &m.anisotropy_texture,         &m.clearcoat_texture,
+             &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,   &m.glint.texture,
+             &m.glint.density_texture,       &m.glint.color_texture,        &m.glint.example_texture };
+}
+
+OIIO::TextureOpt::Wrap wrap_mode(scene_wrap wrap)
+{
+    if (wrap == SCENE_WRAP_CLAMP)
+        return OIIO::TextureOpt::WrapClamp;
+    return wrap == SCENE_WRAP_MIRROR ? OIIO::TextureOpt::WrapMirror : OIIO::TextureOpt::WrapPeriodic;
+}
+
+/* An image as data or as colour; without levels where no material uses it so. */
+struct texture_source {
+    mipmap texels{};
+    OIIO::TextureSystem::TextureHandle *handle = nullptr;
+};
+
+} // namespace
+
+struct textures {
+    explicit textures(int image_count) : sources(2 * static_cast<size_t>(image_count))
+    {
+        cache = OIIO::ImageCache::create(false);
+        system = OIIO::TextureSystem::create(false, cache);
+        system->attribute("gray_to_rgb", 1);
+    }
+    textures(const textures &) = delete;
+    textures &operator=(const textures &) = delete;
+    ~textures()
+    {
+        OIIO::TextureSystem::destroy(system);
+        OIIO::ImageCache::destroy(cache);
+        for (texture_source &source : sources)
+            mipmap_free(&source.texels);
+    }
+
+    static size_t index(const scene_texture &use)
+    {
+        return 2 * static_cast<size_t>(use.image) + (use.srgb ? 1 : 0);
+    }
+
+    bool open(const scene &s, const scene_texture &use, report *r)
+    {
+        texture_source &source = sources[index(use)];
+        if (source.handle)
+            return true;
+        const scene_image &picture = s.images[use.image];
+        return load_mipmap(picture, use.srgb, &source.texels, r) && add(index(use), picture.name, r);
+    }
+
+    /* Hands every level over as one tile that stays where it is. */
+    bool add(size_t number, const char *image_name, report *r)
+    {
+        texture_source &source = sources[number];
+        const mipmap *texels = &source.texels;
+        const OIIO::ustring name = OIIO::ustring::fmtformat("texture {}", number);
+        OIIO::ImageSpec config;
+        config.attribute(mipmap_input::attribute_name, OIIO::TypeDesc::PTR, &texels);
+        bool done = cache->add_file(name, mipmap_input::create, &config);
+        for (int l = 0; done && l < texels->level_count; l++)
+            done =
+                cache->add_tile(name, 0, l, 0, 0, 0, 0, texels->channel_count, mipmap_input::texel_type(*texels),
+                                texels->levels[l].texels, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, false);
+        source.handle = done ? system->get_texture_handle(name) : nullptr;
+        if (!source.handle)
+            return report_error(r, "%s: the texture cache refuses it: %s", image_name,
+                                one_line(cache->geterror()).c_str());
+        return true;
+    }
+
+    OIIO::ImageCache *cache;
+    OIIO::TextureSystem *system;
+    std::vector<texture_source> sources;
+};
+
+bool image_read(const char *path, image *out, report *r)
+{
+    *out = image{};
+    if (guarded(path, r, [&] { return read_picture(path, out, r); }))
+        return true;
+    image_free(out);
+    return false;
+}
+
+bool image_write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
+{
+    return guarded(path, r, [&] { return write_exr(path, i, metadata, metadata_count, r); });
+}
+
+bool image_write_png(const char *path, const image *i, float exposure_ev, report *r)
+{
+    return guarded(path, r, [&] { return write_png(path, i, exposure_ev, r); });
+}
+
+bool textures_open(const scene *s, textures **out, report *r)
+{
+    *out = nullptr;
+    return guarded("textures", r, [&] {
+        auto opened = std::make_unique<textures>(s->image_count);
+        for (int m = 0; m < s->material_count; m++)
+            for (const scene_texture *use : textures_of(s->materials[m]))
+                if (use->image != SCENE_NONE && !opened->open(*s, *use, r))
+                    return false;
+        *out = opened.release();
+        return true;
+    });
+}
+
+void textures_close(textures *t)
+{
+    delete t;
+}
+
+void texture_lookup(const textures *t, const scene_texture *which, float s, float t_, float dsdx, float dtdx,
+                    float dsdy, float dtdy, float rgba[4])
+{
+    rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1.0F;
+    if (which->image == SCENE_NONE)
+        return;
+    const texture_point uv = { s, t_, dsdx, dtdx, dsdy, dtdy };
+    const texture_point p = texture_transform(which, &uv);
+    OIIO::TextureOpt options;
+    options.swrap = wrap_mode(which->wrap_s);
+    options.twrap = wrap_mode(which->wrap_t);
+    options.mipmode = which->nearest ? OIIO::TextureOpt::MipModeNoMIP : OIIO::TextureOpt::MipModeAniso;
+    options.interpmode = which->nearest ? OIIO::TextureOpt::InterpClosest : OIIO::TextureOpt::InterpBilinear;
+    options.fill = 1.0F; /* alpha, where the image has none */
+    t->system->texture(t->sources[textures::index(*which)].handle, t->system->get_perthread_info(), options, p.s, p.t,
+                       p.dsdx, p.dtdx, p.dsdy, p.dtdy, 4, rgba);
+}
