@@ -56,14 +56,14 @@ typedef enum glint_model {
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
 typedef enum glint_feature {
-    GLINT_FEATURE_DISCRETE = 1 << 0,              /* shows single facets */
+    GLINT_FEATURE_DISCRETE = 1 << 0, /* shows single facets */
     GLINT_FEATURE_GGX = 1 << 1,
     GLINT_FEATURE_BECKMANN = 1 << 2,
-    GLINT_FEATURE_ANISOTROPIC = 1 << 3,           /* alpha_x != alpha_y */
-    GLINT_FEATURE_SAMPLE = 1 << 4,                /* sample and pdf */
-    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,       /* a glint_surface may differ from point to point */
-    GLINT_FEATURE_EQUAL_AREA = 1 << 6,            /* facets of equal area */
-    GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7   /* facets of equal projected area */
+    GLINT_FEATURE_ANISOTROPIC = 1 << 3,         /* alpha_x != alpha_y */
+    GLINT_FEATURE_SAMPLE = 1 << 4,              /* sample and pdf */
+    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,     /* a glint_surface may differ from point to point */
+    GLINT_FEATURE_EQUAL_AREA = 1 << 6,          /* facets of equal area */
+    GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7 /* facets of equal projected area */
 } glint_feature;
 
 /* How many models there are; their numbers run from 0. */
@@ -87,8 +87,9 @@ typedef enum glint_fresnel {
 
 /* What all facets have in common. */
 typedef enum glint_weighting {
-    GLINT_WEIGHTING_EQUAL_AREA = 0,      /* their area: normals follow D / integral of D (Kneiphof and Klein 2024, Eq. 12) */
-    GLINT_WEIGHTING_EQUAL_PROJECTED_AREA /* their area seen from above: normals follow D(h)(n.h), as a flat grid of flakes */
+    GLINT_WEIGHTING_EQUAL_AREA = 0, /* their area: normals follow D / integral of D (Kneiphof and Klein 2024, Eq. 12) */
+    GLINT_WEIGHTING_EQUAL_PROJECTED_AREA /* their area seen from above: normals follow D(h)(n.h), as a flat grid of
+                                            flakes */
 } glint_weighting;
 
 /* What textures say about one point of the surface. */
@@ -97,7 +98,7 @@ typedef struct glint_surface {
     float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */
     float f0[3], f90[3];    /* [0, 1], facet reflectance head-on and at grazing angles, for GLINT_FRESNEL_SCHLICK */
     float facets_per_m2;    /* >= 0; 0 gives the smooth limit */
-    float discreteness;     /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
+    float discreteness; /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
 } glint_surface;
 
 typedef struct glint_allocator {
@@ -112,14 +113,14 @@ typedef struct glint_material_options {
     glint_distribution distribution;
     glint_fresnel fresnel;
     glint_weighting weighting;
-    glint_surface surface;       /* where a call brings no surface of its own */
-    float ior;                   /* (1, 10], for GLINT_FRESNEL_DIELECTRIC */
-    float eta[3], k[3];          /* complex refractive index per channel, (0, 20], [0, 20], for GLINT_FRESNEL_CONDUCTOR */
-    float facet_alpha;           /* [0, 1], roughness of one facet: how far its own reflection spreads */
-    float coverage;              /* [0, 1], share of the surface that carries facets; elsewhere their lobe is absent */
-    float elongation;            /* [1, 1e4], length over width of a facet, along the tangent */
-    uint32_t seed;               /* which facets there are */
-    glint_allocator allocator;   /* all NULL: malloc and free */
+    glint_surface surface;     /* where a call brings no surface of its own */
+    float ior;                 /* (1, 10], for GLINT_FRESNEL_DIELECTRIC */
+    float eta[3], k[3];        /* complex refractive index per channel, (0, 20], [0, 20], for GLINT_FRESNEL_CONDUCTOR */
+    float facet_alpha;         /* [0, 1], roughness of one facet: how far its own reflection spreads */
+    float coverage;            /* [0, 1], share of the surface that carries facets; elsewhere their lobe is absent */
+    float elongation;          /* [1, 1e4], length over width of a facet, along the tangent */
+    uint32_t seed;             /* which facets there are */
+    glint_allocator allocator; /* all NULL: malloc and free */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -131,7 +132,10 @@ typedef struct glint_material_options {
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
-            1.0F, 1.0F, 0U, { 0, 0, 0 }                                                                                \
+            1.0F, 1.0F, 0U,                                                                                            \
+        {                                                                                                              \
+            0, 0, 0                                                                                                    \
+        }                                                                                                              \
     }
 
 typedef struct glint_material glint_material;
@@ -150,10 +154,10 @@ GLINT_API glint_surface glint_material_surface(const glint_material *material);
 
 /* What a pixel sees of the surface: where it is and how far a step of one pixel moves on it. */
 typedef struct glint_footprint {
-    double u, v;               /* metres on the surface */
-    float dudx, dudy;          /* metres per pixel, to the right (x) and downwards (y) */
+    double u, v;      /* metres on the surface */
+    float dudx, dudy; /* metres per pixel, to the right (x) and downwards (y) */
     float dvdx, dvdy;
-    uint32_t seed;             /* which object this is: added to the material's seed; 0 is fine */
+    uint32_t seed; /* which object this is: added to the material's seed; 0 is fine */
 } glint_footprint;
 
 typedef enum glint_light_kind {
@@ -167,9 +171,9 @@ typedef struct glint_light {
 
 /* All that evaluation knows about one point and one light. */
 typedef struct glint_value {
-    float rgb[3];         /* f(wo, wi) * |cos theta_i|, discrete */
-    float smooth[3];      /* the same without discreteness: the expectation of rgb over seeds */
-    float facet_count;    /* N, facets under the footprint */
+    float rgb[3];          /* f(wo, wi) * |cos theta_i|, discrete */
+    float smooth[3];       /* the same without discreteness: the expectation of rgb over seeds */
+    float facet_count;     /* N, facets under the footprint */
     float lit_probability; /* p, that one facet reflects the light to the viewer */
 } glint_value;
 
@@ -217,8 +221,8 @@ typedef struct glint_batch {
     size_t count;
     const double *u, *v;
     const float *dudx, *dudy, *dvdx, *dvdy;
-    const uint32_t *seed;          /* NULL: 0 everywhere */
-    const float *wo[3], *wi[3];    /* x, y and z apart */
+    const uint32_t *seed;       /* NULL: 0 everywhere */
+    const float *wo[3], *wi[3]; /* x, y and z apart */
     const float *solid_angle_sr;
     const glint_surface *surfaces; /* NULL: the material's own everywhere */
     float *rgb[3];                 /* out */
@@ -226,7 +230,10 @@ typedef struct glint_batch {
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }                       \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0,                                   \
+        {                                                                                                              \
+            0, 0, 0                                                                                                    \
+        }                                                                                                              \
     }
 
 /* glint_eval for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is missing. */

@@ -1,0 +1,127 @@
+/* The binomial law for one uniform per draw and any real number of trials, in lanes.
+ *
+ * The count of N trials, n = floor(N) whole ones and a fraction f:
+ *
+ *     X = Binomial(n, p) + Bernoulli(f p),    E X = N p,    Var X = n p (1 - p) + f p (1 - f p)
+ *
+ * It is found by inversion: X > k where u < P(X > k). So for a fixed u it never falls when N or p grows, and steps by
+ * one. Small u means a large X: the survival function keeps its relative precision in the tail that matters. Above one
+ * half p is replaced by 1 - p and the count taken from the other end.
+ *
+ * Draws are made several at a time because in a glint twelve share one (N, p) and so one exp and one log.
+ */
+#ifndef MATH_BINOMIAL_H
+#define MATH_BINOMIAL_H
+
+#include "math/elementary.h"
+
+/* Below this mean the survival function is walked, above it a Cornish-Fisher expansion of the normal quantile is used.
+ */
+#define BINOMIAL_WALK_MEAN 8.0F
+#define BINOMIAL_WALK_STEPS 32
+
+/* What depends on p alone. */
+typedef struct binomial_chance {
+    vmask flip;
+    vfloat p;        /* min(p, 1 - p) */
+    vfloat given;    /* p as it came */
+    vfloat log_miss; /* log(1 - p) */
+    vfloat odds;     /* p / (1 - p) */
+    vfloat skew;     /* (1 - 2 p) / 6 */
+} binomial_chance;
+
+/* p in [0, 1]. */
+static inline binomial_chance binomial_chance_of(vfloat p)
+{
+    binomial_chance c;
+    c.given = p;
+    c.flip = less(splat(0.5F), p);
+    c.p = choose(c.flip, 1.0F - p, p);
+    c.log_miss = log1m_half(c.p);
+    c.odds = c.p / (1.0F - c.p);
+    c.skew = (1.0F - 2.0F * c.p) * (1.0F / 6.0F);
+    return c;
+}
+
+/* s in [0, 1] to the number T for which a signed uniform 32-bit u with u < T has probability s. dither, uniform in [0,
+ * 1), rounds up or down at random, so that the probability is right in the mean even below 2^-31. */
+static inline vint binomial_threshold(vfloat s, vfloat dither)
+{
+    const vfloat t = max_f(min_f(s, splat(0.99999994F)), splat(0.0F)) * 2147483648.0F + dither;
+    return (vint)((vuint)to_int(min_f(t, splat(2147483520.0F))) << 1 ^ 0x80000000U);
+}
+
+/* Sum of weight[i] * X_i over twelve draws from b(trials, chance), in three groups of four with one dither each.
+ *
+ * trials   >= 0, up to 1e30
+ * uniform  hashes, uniform as signed 32-bit integers
+ * weight   >= 0
+ */
+static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
+                                           const vfloat weight[12], const vfloat dither[3])
+{
+    const vfloat p = chance->p;
+    const vfloat n = floor_f(trials);
+    const vfloat hit = (trials - n) * chance->given;
+    const vfloat b = choose(chance->flip, 1.0F - hit, hit);
+    const vfloat mean = n * p + b;
+    const vmask wide = less_equal(splat(BINOMIAL_WALK_MEAN), mean);
+    vfloat sum = splat(0.0F);
+
+    if (any(~wide)) {
+        static const float inverse[BINOMIAL_WALK_STEPS + 1] = {
+            0.0F,      1.0F / 1,  1.0F / 2,  1.0F / 3,  1.0F / 4,  1.0F / 5,  1.0F / 6,  1.0F / 7,  1.0F / 8,
+            1.0F / 9,  1.0F / 10, 1.0F / 11, 1.0F / 12, 1.0F / 13, 1.0F / 14, 1.0F / 15, 1.0F / 16, 1.0F / 17,
+            1.0F / 18, 1.0F / 19, 1.0F / 20, 1.0F / 21, 1.0F / 22, 1.0F / 23, 1.0F / 24, 1.0F / 25, 1.0F / 26,
+            1.0F / 27, 1.0F / 28, 1.0F / 29, 1.0F / 30, 1.0F / 31, 1.0F / 32
+        };
+        vfloat em1, mass;
+        exp_both(n * chance->log_miss, &em1, &mass);
+        vint least = uniform[0];
+        for (int i = 1; i < 12; i++)
+            least = min_i(least, uniform[i]);
+        least = choose_i(wide, splat_i(INT32_MAX), least);
+
+        vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
+        /* A step of 0 keeps lanes that are not walked from overflowing. */
+        vfloat survival = -em1, step = choose(wide, splat(0.0F), n * chance->odds);
+        vint threshold[3];
+        for (int g = 0; g < 3; g++)
+            threshold[g] = binomial_threshold(survival + b * mass, dither[g]);
+        for (int k = 0; k < BINOMIAL_WALK_STEPS; k++) {
+            if (k > 0)
+                threshold[0] = threshold[1] = threshold[2] = binomial_threshold(survival + b * mass, splat(0.0F));
+            if (!any(less_i(least, threshold[0]) | less_i(least, threshold[1]) | less_i(least, threshold[2])))
+                break;
+            /* Denormals would cost up to four times as much. */
+            mass = max_f(mass * step * inverse[k + 1], splat(1e-30F));
+            step = step - chance->odds;
+            survival = survival - mass;
+            for (int g = 0; g < 3; g++)
+                for (int i = 4 * g; i < 4 * g + 4; i++)
+                    group[g] = group[g] + choose(less_i(uniform[i], threshold[g]), weight[i], splat(0.0F));
+        }
+        sum = group[0] + group[1] + group[2];
+    }
+    if (any(wide)) {
+        /* Continuity and skewness corrections (Cornish and Fisher): X = floor(m + 1/2 - c + z (s + c z)). */
+        const vfloat variance = n * p * (1.0F - p) + b * (1.0F - b);
+        const vfloat c = chance->skew;
+        const vfloat s = sqrt_f(max_f(variance - 0.083333333F - 2.0F * c * c, splat(0.0F)));
+        const vfloat centre = mean + 0.5F - c;
+        vfloat normal[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
+        for (int g = 0; g < 3; g++)
+            for (int i = 4 * g; i < 4 * g + 4; i++) {
+                const vfloat z = normal_quantile(to_float(uniform[i]) * 4.656612e-10F);
+                const vfloat x = max_f(floor_f(centre - z * (s - c * z)), splat(0.0F));
+                normal[g] = normal[g] + weight[i] * min_f(x, n + 1.0F);
+            }
+        sum = choose(wide, normal[0] + normal[1] + normal[2], sum);
+    }
+    vfloat total = splat(0.0F);
+    for (int i = 0; i < 12; i++)
+        total = total + weight[i];
+    return choose(chance->flip, (n + 1.0F) * total - sum, sum);
+}
+
+#endif

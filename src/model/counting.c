@@ -1,0 +1,157 @@
+/* The counting model: the smooth lobe times b(N, p) / (N p), a binomial count of the lit facets under the footprint.
+ *
+ * L = L_smooth b(N, p) / (N p): Kneiphof and Klein 2024, Eq. 21, on the grids of Deliot and Belcour 2023. The mean over
+ * seeds is the smooth lobe by construction.
+ */
+#include "model/counting_kernel.h"
+
+#define GLINT_LANES 1
+#include "math/hash.h"
+#include "model/lobe.h"
+
+enum { CHUNK = 64 }; /* points gathered for the kernel at a time; a multiple of every width */
+
+/* The arrays that counting_points points to. */
+typedef struct gathered {
+    double u[CHUNK], v[CHUNK];
+    float dudx[CHUNK], dudy[CHUNK], dvdx[CHUNK], dvdy[CHUNK], density[CHUNK], hx[CHUNK], hy[CHUNK], cap[CHUNK],
+        p[CHUNK];
+    uint32_t seed[CHUNK];
+} gathered;
+
+counting_width counting_widest(size_t max_lanes)
+{
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    if (max_lanes >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+        return (counting_width){ 16, counting_kernel_16 };
+    if (max_lanes >= 8 && __builtin_cpu_supports("avx2"))
+        return (counting_width){ 8, counting_kernel_8 };
+    if (max_lanes >= 4 && __builtin_cpu_supports("sse4.1"))
+        return (counting_width){ 4, counting_kernel_4 };
+#elif defined(__aarch64__)
+    if (max_lanes >= 4)
+        return (counting_width){ 4, counting_kernel_4 };
+#endif
+    (void)max_lanes;
+    return (counting_width){ 1, counting_kernel_1 };
+}
+
+/* Whether there is anything to count at this point. */
+static int is_discrete(const model_query *q)
+{
+    return q->footprint && q->solid_angle_sr > 0.0F && q->surface->discreteness > 0.0F &&
+           q->surface->facets_per_m2 > 0.0F;
+}
+
+/* Fills entry i. A facet of this elongation is longer along u and narrower along v by its square root, so that its area
+ * and the density stay: the surface is shrunk and stretched the other way. */
+static void gather(const model_query *q, const lobe_value *lobe, gathered *g, size_t i)
+{
+    const float solid_angle = lobe_lit_solid_angle(q, lobe);
+    const glint_material_options *o = &q->material->options;
+    const float stretch = sqrtf(o->elongation), shrink = 1.0F / stretch;
+    const glint_footprint *f = q->footprint;
+    g->u[i] = f->u * (double)shrink;
+    g->v[i] = f->v * (double)stretch;
+    g->dudx[i] = f->dudx * shrink;
+    g->dudy[i] = f->dudy * shrink;
+    g->dvdx[i] = f->dvdx * stretch;
+    g->dvdy[i] = f->dvdy * stretch;
+    g->density[i] = q->surface->facets_per_m2;
+    g->seed[i] = hash_full(o->seed * HASH_X + f->seed * HASH_Y);
+    g->hx[i] = lobe->h.x;
+    g->hy[i] = lobe->h.y;
+    g->cap[i] = solid_angle * lobe->h.z;
+    g->p[i] = lobe_lit_probability(q, lobe, solid_angle);
+}
+
+static void count_gathered(const gathered *g, counting_kernel *kernel, size_t count, float *factor, float *facets)
+{
+    const counting_points points = { g->u,       g->v,    g->dudx, g->dudy, g->dvdx, g->dvdy,
+                                     g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
+    kernel(&points, count, factor, facets);
+}
+
+static void combine(const model_query *q, const lobe_value *lobe, float factor, glint_value *value)
+{
+    const float discrete = q->surface->discreteness * (factor - 1.0F);
+    for (int c = 0; c < 3; c++) {
+        value->smooth[c] = lobe->specular[c] + lobe->diffuse[c];
+        value->rgb[c] = (lobe->specular[c] + lobe->specular[c] * discrete) + lobe->diffuse[c];
+    }
+}
+
+/* At most CHUNK queries. */
+static void eval_chunk(const model_query *q, size_t count, counting_width width, glint_value *value)
+{
+    gathered g;
+    lobe_value lobe[CHUNK];
+    size_t index[CHUNK], discrete = 0;
+    for (size_t i = 0; i < count; i++) {
+        lobe_eval(&q[i], &lobe[i]);
+        value[i] = (glint_value){ 0 };
+        if (is_discrete(&q[i])) {
+            gather(&q[i], &lobe[i], &g, discrete);
+            index[discrete++] = i;
+        } else {
+            combine(&q[i], &lobe[i], 1.0F, &value[i]);
+        }
+    }
+    if (discrete == 0)
+        return;
+    size_t padded = discrete;
+    for (; padded % width.lanes != 0; padded++)
+        gather(&q[index[discrete - 1]], &lobe[index[discrete - 1]], &g, padded);
+
+    float factor[CHUNK], facets[CHUNK];
+    count_gathered(&g, width.kernel, padded, factor, facets);
+    for (size_t i = 0; i < discrete; i++) {
+        combine(&q[index[i]], &lobe[index[i]], factor[i], &value[index[i]]);
+        value[index[i]].facet_count = facets[i];
+        value[index[i]].lit_probability = g.p[i];
+    }
+}
+
+static void counting_eval(const model_query *q, glint_value *value)
+{
+    eval_chunk(q, 1, (counting_width){ 1, counting_kernel_1 }, value);
+}
+
+static void counting_eval_many(const model_query *q, size_t count, glint_value *value)
+{
+    const counting_width *width = q->material->baked;
+    for (size_t i = 0; i < count; i += CHUNK)
+        eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, *width, value + i);
+}
+
+/* Which width this machine runs is found once, when the material is made. */
+static glint_result counting_setup(struct glint_material *material)
+{
+    const glint_allocator *a = &material->options.allocator;
+    counting_width *width = a->allocate(sizeof(*width), a->user);
+    if (!width)
+        return GLINT_ERROR_MEMORY;
+    *width = counting_widest(16);
+    material->baked = width;
+    return GLINT_OK;
+}
+
+static void counting_free(struct glint_material *material)
+{
+    material->options.allocator.release(material->baked, material->options.allocator.user);
+}
+
+const struct model counting_model = {
+    .name = "counting",
+    .features = GLINT_FEATURE_DISCRETE | GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC |
+                GLINT_FEATURE_SAMPLE | GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA |
+                GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+    .setup = counting_setup,
+    .free = counting_free,
+    .eval = counting_eval,
+    .eval_many = counting_eval_many,
+    .sample = lobe_sample,
+    .pdf = lobe_pdf,
+};

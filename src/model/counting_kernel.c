@@ -1,0 +1,117 @@
+/* The counting model's inner loop: a binomial count on anisotropic grids, for GLINT_LANES points at a time.
+ *
+ * Deliot and Belcour 2023 (grids, sections 4 to 6), with the probability of Kneiphof and Klein 2024. The spatial part
+ * is done once a point; the part that knows the light once per light.
+ *
+ * The surface holds 4 grids x 3 cells; each cell has its own lattice in the plane of half vectors, and the four corners
+ * around h are blended. So 48 realisations of the law add up, twelve of each grid sharing one (N, p).
+ */
+#include "model/counting_kernel.h"
+
+#include "footprint/grid.h"
+#include "math/binomial.h"
+
+#define CELLS (GRID_COUNT * GRID_CELLS)
+
+/* Blending four corners with bilinear weights v divides the variance by 1 / sum v^2, 9/4 in the mean. Drawing with 4/9
+ * of the facets gives it back: over a large patch the variance is that of the facets themselves. */
+#define ANGULAR_SHARE 0.444444444F
+
+/* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
+#define LEAST_COUNT 1e-20F
+
+/* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
+#define ANGULAR_LEVELS 14
+
+typedef struct angular_lattice {
+    vuint x, y;    /* h in units of 2^-16 cells of the finer level */
+    vint level;    /* log2 of cells per unit */
+    vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
+} angular_lattice;
+
+/* A facet stays lit while h is within the cap, so a cell has the cap's area. Levels are powers of two; each cell of the
+ * surface takes one of the two nearest, with the chance that makes the mean area right: nothing moves when the cap
+ * changes size. */
+static angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
+{
+    const vfloat area = min_f(max_f(cap, splat(1.0F / (1 << 2 * ANGULAR_LEVELS))), splat(1.0F));
+    angular_lattice l;
+    l.level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
+    const vfloat scale = exp2_i(l.level);
+    l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
+    l.x = (vuint)to_int(hx * scale * 65536.0F) + 0x40000000U;
+    l.y = (vuint)to_int(hy * scale * 65536.0F) + 0x40000000U;
+    return l;
+}
+
+/* Uniforms and weights of the four corners around h in the lattice of one surface cell. */
+static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat cell_weight, vint uniform[4],
+                                   vfloat weight[4], vfloat *dither)
+{
+    const vuint bits = hash_top(cell + HASH_X);
+    const vmask coarse = less_i((vint)(bits >> 16), (vint)l->coarser);
+    *dither = to_float((vint)(bits & 0xffffU)) * (1.0F / 65536.0F);
+    const vuint x = choose_u(coarse, l->x >> 1, l->x) + (cell & 0xffffU);
+    const vuint y = choose_u(coarse, l->y >> 1, l->y) + (cell >> 16);
+
+    const vfloat fx = to_float((vint)(x & 0xffffU)), fy = to_float((vint)(y & 0xffffU));
+    const vfloat gx = 65536.0F - fx;
+    const vfloat scaled = cell_weight * 2.3283064e-10F; /* 2^-32 */
+    const vfloat up = scaled * fy, down = scaled * (65536.0F - fy);
+    weight[0] = gx * down;
+    weight[1] = fx * down;
+    weight[2] = gx * up;
+    weight[3] = fx * up;
+
+    const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
+    const vuint corner = (cell + (x >> 16)) * HASH_X + (y >> 16) * HASH_Y + lattice;
+    uniform[0] = (vint)hash_top(corner);
+    uniform[1] = (vint)hash_top(corner + HASH_X);
+    uniform[2] = (vint)hash_top(corner + HASH_Y);
+    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y));
+}
+
+/* b(N, p) / (N p) for one light. */
+static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p)
+{
+    const angular_lattice lattice = angular_locate(hx, hy, cap);
+    const binomial_chance chance = binomial_chance_of(p);
+    const vfloat drawn = facets * ANGULAR_SHARE;
+    vfloat sum = splat(0.0F);
+    for (int g = 0; g < GRID_COUNT; g++) {
+        vint uniform[12];
+        vfloat weight[12], dither[GRID_CELLS];
+        for (int c = 0; c < GRID_CELLS; c++)
+            angular_corners(&lattice, grid->cell[GRID_CELLS * g + c], grid->weight[GRID_CELLS * g + c], uniform + 4 * c,
+                            weight + 4 * c, dither + c);
+        sum = sum + binomial_weighted_sum(drawn * grid->share[g], &chance, uniform, weight, dither);
+    }
+    const vfloat expected = drawn * p;
+    const vmask smooth = less_equal(splat(1.0F), p) | less(expected, splat(LEAST_COUNT));
+    return choose(smooth, splat(1.0F), sum / max_f(expected, splat(LEAST_COUNT)));
+}
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+
+void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t count, float *factor, float *facets)
+{
+    for (size_t i = 0; i < count; i += GLINT_LANES) {
+        vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
+        vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
+        const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
+        /* A pixel without area has no facets to count: the unit square stands in, so that nothing divides by zero. */
+        const vmask flat = less(area, splat(1e-30F));
+        dudx = choose(flat, splat(1.0F), dudx);
+        dudy = choose(flat, splat(0.0F), dudy);
+        dvdx = choose(flat, splat(0.0F), dvdx);
+        dvdy = choose(flat, splat(1.0F), dvdy);
+        const vfloat n = min_f(area * load_f(points->density + i), splat(1e30F));
+        const grid_point grid = grid_locate(load_d(points->u + i), load_d(points->v + i), dudx, dudy, dvdx, dvdy,
+                                            choose(flat, splat(1.0F), area), load_u(points->seed + i));
+        const vfloat f = lit_factor(&grid, n, load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i),
+                                    load_f(points->p + i));
+        store_f(factor + i, choose(flat, splat(1.0F), f));
+        store_f(facets + i, n);
+    }
+}

@@ -1,0 +1,33 @@
+/* The counting model's inner loop, compiled once for each vector width; counting.c chooses. */
+#ifndef MODEL_COUNTING_KERNEL_H
+#define MODEL_COUNTING_KERNEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Points as a structure of arrays. All values are finite; density, cap and p are >= 0. */
+typedef struct counting_points {
+    const double *u, *v;                    /* metres, below 1e15 in size */
+    const float *dudx, *dudy, *dvdx, *dvdy; /* metres per pixel, below 1e9 in size */
+    const float *density;                   /* facets per m^2 */
+    const uint32_t *seed;                   /* a full hash */
+    const float *hx, *hy;                   /* half vector, along and across the tangent */
+    const float *cap;                       /* area of the lit cap, seen from above: its solid angle times h.z */
+    const float *p;                         /* lit probability, at most 1 */
+} counting_points;
+
+/* factor = b(N, p) / (N p), blended over grids and cells, 1 in the smooth limit; facets = N.
+ * count is a multiple of the width. Every width gives the same bits. */
+typedef void counting_kernel(const counting_points *points, size_t count, float *factor, float *facets);
+
+counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;
+
+typedef struct counting_width {
+    size_t lanes;
+    counting_kernel *kernel;
+} counting_width;
+
+/* The widest kernel that this machine runs, at most max_lanes wide. */
+counting_width counting_widest(size_t max_lanes);
+
+#endif

@@ -1,0 +1,128 @@
+/* The smooth reflection that every model shares: a Cook-Torrance lobe of facets over a Lambertian base. */
+#include "model/lobe.h"
+
+#include "light/cap.h"
+#include "ndf/fresnel.h"
+#include "ndf/ndf.h"
+
+#define GLINT_LANES 1
+#include "math/elementary.h"
+
+static ndf ndf_of(const model_query *q)
+{
+    return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
+                  q->surface->alpha_x, q->surface->alpha_y };
+}
+
+static float facet_reflectance(const model_query *q, int channel, float cosine)
+{
+    const glint_material_options *o = &q->material->options;
+    switch (o->fresnel) {
+    case GLINT_FRESNEL_DIELECTRIC:
+        return fresnel_dielectric(cosine, o->ior);
+    case GLINT_FRESNEL_CONDUCTOR:
+        return fresnel_conductor(cosine, o->eta[channel], o->k[channel]);
+    case GLINT_FRESNEL_SCHLICK:
+        break;
+    }
+    return fresnel_schlick(cosine, q->surface->f0[channel], q->surface->f90[channel]);
+}
+
+static float clamp01(float x)
+{
+    return x < 0.0F ? 0.0F : x > 1.0F ? 1.0F : x;
+}
+
+void lobe_eval(const model_query *q, lobe_value *value)
+{
+    const ndf n = ndf_of(q);
+    value->h = vec3_normalize(vec3_add(q->wo, q->wi));
+    value->h_dot_wi = clamp01(vec3_dot(value->h, q->wi));
+    value->density = ndf_density(&n, value->h);
+    const float facets = 0.25F * value->density * ndf_masking_over_cosine(&n, q->wo, q->wi);
+    const float coverage = q->material->options.coverage;
+    for (int c = 0; c < 3; c++) {
+        const float reflected = coverage * facet_reflectance(q, c, value->h_dot_wi);
+        value->specular[c] = reflected * facets;
+        value->diffuse[c] = (1.0F - reflected) * q->surface->diffuse[c] * (q->wi.z / MATH_PI);
+    }
+}
+
+float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
+{
+    return cap_half_vector_solid_angle(q->solid_angle_sr, value->h_dot_wi) +
+           ndf_facet_solid_angle(ndf_of(q).kind, q->material->options.facet_alpha);
+}
+
+float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr)
+{
+    const ndf n = ndf_of(q);
+    float p = value->density * solid_angle_sr;
+    if (q->material->options.weighting == GLINT_WEIGHTING_EQUAL_PROJECTED_AREA)
+        p *= value->h.z;
+    else
+        p /= q->total_area > 0.0F ? q->total_area : ndf_total_area(&n);
+    return p < 1.0F ? p : 1.0F;
+}
+
+/* Chance that sampling takes the facets rather than the base: their shares of the light, guessed head-on to the viewer.
+ */
+static float specular_chance(const model_query *q)
+{
+    float specular = 0.0F, diffuse = 0.0F;
+    for (int c = 0; c < 3; c++) {
+        const float reflected = q->material->options.coverage * facet_reflectance(q, c, q->wo.z);
+        specular += reflected;
+        diffuse += (1.0F - reflected) * q->surface->diffuse[c];
+    }
+    if (!(diffuse > 0.0F))
+        return 1.0F;
+    if (!(specular > 0.0F))
+        return 0.0F;
+    /* At least a tenth each: the guess knows nothing about wi. */
+    const float chance = specular / (specular + diffuse);
+    return chance < 0.1F ? 0.1F : chance > 0.9F ? 0.9F : chance;
+}
+
+float lobe_pdf(const model_query *q)
+{
+    const ndf n = ndf_of(q);
+    const float chance = specular_chance(q);
+    const vec3 h = vec3_normalize(vec3_add(q->wo, q->wi));
+    /* Visible normals over the reflection's Jacobian: G1 D / (4 cos_o), G1 / cos_o = 1 / (cos_o + masked). */
+    const float specular = ndf_density(&n, h) / (4.0F * (q->wo.z + ndf_masked(&n, q->wo)));
+    return chance * specular + (1.0F - chance) * (q->wi.z / MATH_PI);
+}
+
+/* Cosine-distributed direction: a uniform point of the disk, lifted. */
+static vec3 cosine_direction(float u1, float u2)
+{
+    const float turn = 2.0F * u1;
+    float sine, cosine;
+    sincos_pi(turn < 1.0F ? turn : turn - 1.0F, &sine, &cosine);
+    const float r = (turn < 1.0F ? 1.0F : -1.0F) * sqrtf(u2);
+    return (vec3){ r * cosine, r * sine, sqrtf(1.0F - u2) };
+}
+
+int lobe_sample(const model_query *q, const float random[3], glint_sample *sample)
+{
+    const ndf n = ndf_of(q);
+    model_query lit = *q;
+    if (random[0] < specular_chance(q)) {
+        const vec3 h = ndf_sample_visible(&n, q->wo, random[1], random[2]);
+        lit.wi = vec3_normalize(vec3_add(vec3_scale(h, 2.0F * vec3_dot(q->wo, h)), vec3_scale(q->wo, -1.0F)));
+    } else {
+        lit.wi = cosine_direction(random[1], random[2]);
+    }
+    if (!(lit.wi.z > 0.0F))
+        return 0;
+    lobe_value value;
+    lobe_eval(&lit, &value);
+    const float pdf = lobe_pdf(&lit);
+    if (!(pdf > 0.0F))
+        return 0;
+    *sample = (glint_sample){ { lit.wi.x, lit.wi.y, lit.wi.z }, pdf, { 0.0F, 0.0F, 0.0F } };
+    for (int c = 0; c < 3; c++)
+        sample->weight[c] = (value.specular[c] + value.diffuse[c]) / pdf;
+    return 1;
+}

@@ -1,0 +1,31 @@
+/* The smooth reflection that every model shares: a Cook-Torrance lobe of facets over a Lambertian base. */
+#ifndef MODEL_LOBE_H
+#define MODEL_LOBE_H
+
+#include "model/model.h"
+
+/* f |cos theta_i| in its two parts, and the density that made it. */
+typedef struct lobe_value {
+    float specular[3];
+    float diffuse[3];
+    vec3 h; /* unit half vector */
+    float h_dot_wi;
+    float density; /* D(h) */
+} lobe_value;
+
+/* f = coverage F D G2 / (4 cos_o cos_i) + (1 - coverage F) diffuse / pi, each times |cos theta_i|. */
+void lobe_eval(const model_query *q, lobe_value *value);
+
+/* Solid angle of the facet normals that reflect some of the light to the viewer, sr: the light's and the facet's own
+ * lobe. */
+float lobe_lit_solid_angle(const model_query *q, const lobe_value *value);
+
+/* p, that a facet has such a normal, in [0, 1]: D_Omega_h / D_H for facets of equal area (Kneiphof and Klein 2024, Eq.
+ * 12), the integral of D(h)(n.h) for facets of equal projected area. D is taken as constant over the solid angle (Eq.
+ * 20). */
+float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr);
+
+int lobe_sample(const model_query *q, const float random[3], glint_sample *sample);
+float lobe_pdf(const model_query *q);
+
+#endif

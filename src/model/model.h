@@ -1,0 +1,51 @@
+/* THE CONTRACT of a model: what it must do so that glint.c, and every client, can use it without knowing it.
+ *
+ * A model is one file that ends in `const struct model NAME_model` and one row in glint.c. What it is called with has
+ * been checked: directions are unit and above the horizon, the surface is finite and in range. What it returns is
+ * checked by nobody.
+ */
+#ifndef MODEL_MODEL_H
+#define MODEL_MODEL_H
+
+#include "glint.h"
+#include "math/vec3.h"
+
+/* A frozen material. */
+struct glint_material {
+    const struct model *model;
+    glint_material_options options;
+    float total_area; /* D_H of the material's own surface */
+    void *baked;      /* the model's own, from setup */
+};
+
+/* Where and how one evaluation happens. */
+typedef struct model_query {
+    const glint_material *material;
+    const glint_surface *surface;
+    float total_area;                 /* D_H of this surface; 0: not known yet */
+    const glint_footprint *footprint; /* NULL: the smooth limit */
+    float solid_angle_sr;             /* of the light; 0: the smooth limit */
+    vec3 wo, wi;
+} model_query;
+
+struct model {
+    const char *name;
+    uint32_t features; /* glint_feature bits */
+
+    /* Bakes what the options call for into material->baked. NULL: there is nothing to bake. Memory comes from
+     * options.allocator. On failure nothing stays allocated. */
+    glint_result (*setup)(struct glint_material *material);
+    void (*free)(struct glint_material *material);
+
+    void (*eval)(const model_query *q, glint_value *value);
+    /* eval for count queries, bit for bit. */
+    void (*eval_many)(const model_query *q, size_t count, glint_value *value);
+    /* As glint_sample_direction and glint_pdf. */
+    int (*sample)(const model_query *q, const float random[3], glint_sample *sample);
+    float (*pdf)(const model_query *q);
+};
+
+extern const struct model smooth_model;
+extern const struct model counting_model;
+
+#endif

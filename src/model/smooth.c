@@ -1,0 +1,27 @@
+/* The smooth model: infinitely many facets, a Cook-Torrance lobe (Cook and Torrance 1982; Walter et al. 2007). */
+#include "model/lobe.h"
+
+static void smooth_eval(const model_query *q, glint_value *value)
+{
+    lobe_value lobe;
+    lobe_eval(q, &lobe);
+    *value = (glint_value){ 0 };
+    for (int c = 0; c < 3; c++)
+        value->rgb[c] = value->smooth[c] = lobe.specular[c] + lobe.diffuse[c];
+}
+
+static void smooth_eval_many(const model_query *q, size_t count, glint_value *value)
+{
+    for (size_t i = 0; i < count; i++)
+        smooth_eval(&q[i], &value[i]);
+}
+
+const struct model smooth_model = {
+    .name = "smooth",
+    .features = GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC | GLINT_FEATURE_SAMPLE |
+                GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA | GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+    .eval = smooth_eval,
+    .eval_many = smooth_eval_many,
+    .sample = lobe_sample,
+    .pdf = lobe_pdf,
+};

@@ -1,0 +1,91 @@
+/* The Beckmann distribution (Cook and Torrance 1982) with Smith masking. */
+#include "ndf/distributions.h"
+
+#define GLINT_LANES 1
+#include "math/elementary.h"
+
+#define SQRT_PI 1.77245385F
+
+/* exp(x^2) erfc(x) for x >= 0, where erfc alone underflows; relative error below 3e-7. A fit of degree 10 in
+ * t = 2.5 / (2.5 + x), weighted by the function itself. */
+static float erfcx_f(float x)
+{
+    const float t = 2.5F / (2.5F + x);
+    static const float c[11] = { 0.225675833F,  0.225676081F,  0.207608054F,   0.171802345F,
+                                 0.118634124F,  0.0852281591F, -0.0497441414F, 0.141435464F,
+                                 -0.238736198F, 0.141926705F,  -0.0295064323F };
+    float p = c[10];
+    for (int i = 9; i >= 0; i--)
+        p = p * t + c[i];
+    return p * t;
+}
+
+/* 1 + erf(x). */
+static float one_plus_erf(float x)
+{
+    const float tail = exp_negative(-x * x) * erfcx_f(fabsf(x));
+    return x < 0.0F ? tail : 2.0F - tail;
+}
+
+float beckmann_density(float alpha_x, float alpha_y, vec3 h)
+{
+    const float z2 = h.z * h.z;
+    const float x = h.x / alpha_x, y = h.y / alpha_y;
+    const float slope2 = (x * x + y * y) / fmaxf(z2, 1e-30F);
+    return slope2 < 87.0F ? exp_negative(-slope2) / (MATH_PI * alpha_x * alpha_y * z2 * z2) : 0.0F;
+}
+
+float beckmann_masked(float alpha_x, float alpha_y, vec3 v)
+{
+    /* cos Lambda = (s exp(-a^2) / sqrt(pi) - cos erfc(a)) / 2 with a = cos / s. */
+    const float x = alpha_x * v.x, y = alpha_y * v.y;
+    const float s = sqrtf(x * x + y * y);
+    if (!(v.z < 9.0F * s)) /* exp(-81): nothing is masked */
+        return 0.0F;
+    const float a = v.z / s;
+    return fmaxf(0.0F, 0.5F * exp_negative(-a * a) * (s / SQRT_PI - v.z * erfcx_f(a)));
+}
+
+float beckmann_total_area(float alpha)
+{
+    return 1.0F + 0.5F * SQRT_PI * alpha * erfcx_f(1.0F / alpha);
+}
+
+/* Slope along the view, with density proportional to (cos - x sin) exp(-x^2) for x below cot: its distribution function
+ * is cos (1 + erf x) / 2 + sin exp(-x^2) / (2 sqrt pi), inverted by bisection with Newton steps (Heitz and d'Eon 2014).
+ */
+static float visible_slope(float cosine, float sine, float u)
+{
+    float low = -4.0F, high = sine > 0.25F * cosine ? cosine / sine : 4.0F;
+    if (high > 4.0F)
+        high = 4.0F;
+    const float whole = 0.5F * cosine * one_plus_erf(high) + 0.5F / SQRT_PI * sine * exp_negative(-high * high);
+    const float target = u * whole;
+    float x = 0.5F * (low + high);
+    for (int i = 0; i < 24 && high - low > 1e-6F; i++) {
+        const float e = exp_negative(-x * x);
+        const float excess = 0.5F * cosine * one_plus_erf(x) + 0.5F / SQRT_PI * sine * e - target;
+        if (excess > 0.0F)
+            high = x;
+        else
+            low = x;
+        const float slope = (cosine - x * sine) * e * (1.0F / SQRT_PI);
+        const float next = slope > 1e-12F ? x - excess / slope : low;
+        if (fabsf(next - x) < 1e-7F)
+            break;
+        x = next > low && next < high ? next : 0.5F * (low + high);
+    }
+    return x;
+}
+
+vec3 beckmann_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u2)
+{
+    /* Stretch to roughness one, sample slopes in the frame of the view, turn back, unstretch. */
+    const vec3 v = vec3_normalize((vec3){ alpha_x * wo.x, alpha_y * wo.y, wo.z });
+    const float sine = sqrtf(v.x * v.x + v.y * v.y);
+    const float cx = sine > 1e-12F ? v.x / sine : 1.0F, cy = sine > 1e-12F ? v.y / sine : 0.0F;
+    const float along = visible_slope(v.z, sine, u1);
+    const float across = normal_quantile(2.0F * u2 - 1.0F) * 0.707106781F;
+    const float sx = alpha_x * (cx * along - cy * across), sy = alpha_y * (cy * along + cx * across);
+    return vec3_normalize((vec3){ -sx, -sy, 1.0F });
+}

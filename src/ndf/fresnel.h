@@ -1,0 +1,40 @@
+/* Fresnel reflectance of one facet. cosine is that between a direction and the facet's normal, in [0, 1]. */
+#ifndef NDF_FRESNEL_H
+#define NDF_FRESNEL_H
+
+#include <math.h>
+
+/* Schlick 1994: from f0 head-on to f90 at grazing angles. */
+static inline float fresnel_schlick(float cosine, float f0, float f90)
+{
+    const float m = 1.0F - cosine;
+    const float m2 = m * m;
+    return f0 + (f90 - f0) * (m2 * m2 * m);
+}
+
+/* Exact, unpolarised; ior is that of the inside over the outside, > 1. */
+static inline float fresnel_dielectric(float cosine, float ior)
+{
+    const float sine2 = (1.0F - cosine) * (1.0F + cosine);
+    const float inner = sqrtf(1.0F - sine2 / (ior * ior));
+    const float s = (cosine - ior * inner) / (cosine + ior * inner);
+    const float p = (ior * cosine - inner) / (ior * cosine + inner);
+    return 0.5F * (s * s + p * p);
+}
+
+/* Exact, unpolarised; the refractive index is eta + i k. */
+static inline float fresnel_conductor(float cosine, float eta, float k)
+{
+    const float cos2 = cosine * cosine, sin2 = 1.0F - cos2;
+    const float eta2 = eta * eta, k2 = k * k;
+    const float t0 = eta2 - k2 - sin2;
+    const float a2b2 = sqrtf(t0 * t0 + 4.0F * eta2 * k2);
+    const float a = sqrtf(fmaxf(0.0F, 0.5F * (a2b2 + t0)));
+    const float s1 = a2b2 + cos2, s2 = 2.0F * a * cosine;
+    const float s = (s1 - s2) / (s1 + s2);
+    const float p1 = cos2 * a2b2 + sin2 * sin2, p2 = s2 * sin2;
+    const float p = s * (p1 - p2) / (p1 + p2);
+    return 0.5F * (s + p);
+}
+
+#endif

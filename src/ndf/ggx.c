@@ -1,0 +1,46 @@
+/* The GGX distribution (Walter et al. 2007) with Smith masking. */
+#include "ndf/distributions.h"
+
+#define GLINT_LANES 1
+#include "math/elementary.h"
+
+float ggx_density(float alpha_x, float alpha_y, vec3 h)
+{
+    const float x = h.x / alpha_x, y = h.y / alpha_y;
+    const float t = x * x + y * y + h.z * h.z;
+    return 1.0F / (MATH_PI * alpha_x * alpha_y * t * t);
+}
+
+float ggx_masked(float alpha_x, float alpha_y, vec3 v)
+{
+    /* cos Lambda = (sqrt(alpha_x^2 x^2 + alpha_y^2 y^2 + z^2) - z) / 2, without the difference of nearly equal numbers.
+     */
+    const float x = alpha_x * v.x, y = alpha_y * v.y;
+    const float t = x * x + y * y;
+    const float length = sqrtf(t + v.z * v.z);
+    return length > 0.0F ? 0.5F * t / (length + v.z) : 0.0F;
+}
+
+float ggx_total_area(float alpha)
+{
+    /* 1 + alpha^2 atanh(w) / w with w = sqrt(1 - alpha^2). */
+    const float w2 = (1.0F - alpha) * (1.0F + alpha);
+    if (w2 < 0.01F)
+        return 1.0F + alpha * alpha * (1.0F + w2 * (1.0F / 3.0F + w2 * (0.2F + w2 * (1.0F / 7.0F))));
+    const float w = sqrtf(w2);
+    return 1.0F + alpha * alpha * log_f((1.0F + w) / alpha) / w;
+}
+
+vec3 ggx_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u2)
+{
+    /* Spherical caps: Dupuy and Benyoub 2023. */
+    const vec3 v = vec3_normalize((vec3){ alpha_x * wo.x, alpha_y * wo.y, wo.z });
+    const float turn = 2.0F * u1;
+    float sine, cosine;
+    sincos_pi(turn < 1.0F ? turn : turn - 1.0F, &sine, &cosine);
+    const float sign = turn < 1.0F ? 1.0F : -1.0F;
+    const float z = (1.0F - u2) * (1.0F + v.z) - v.z;
+    const float r = sqrtf(fmaxf(0.0F, (1.0F - z) * (1.0F + z)));
+    const vec3 h = { sign * r * cosine + v.x, sign * r * sine + v.y, z + v.z };
+    return vec3_normalize((vec3){ alpha_x * h.x, alpha_y * h.y, fmaxf(h.z, 1e-12F) });
+}

@@ -1,0 +1,38 @@
+/* Microfacet normal distributions with anisotropic roughness: density, masking, total area, visible normals.
+ *
+ * Local frame, z the normal. alpha_x and alpha_y in [1e-4, 1]. Masking is Smith's, height-correlated (Heitz 2014).
+ */
+#ifndef NDF_NDF_H
+#define NDF_NDF_H
+
+#include "math/vec3.h"
+
+typedef enum ndf_kind { NDF_GGX, NDF_BECKMANN } ndf_kind;
+
+typedef struct ndf {
+    ndf_kind kind;
+    float alpha_x, alpha_y;
+} ndf;
+
+/* D(h), per steradian: area of facets with normal h over area of surface. h unit with h.z >= 0; 0 for h.z = 0. */
+float ndf_density(const ndf *n, vec3 h);
+
+/* cos(theta) Lambda(v): what Smith's masking adds to the projected area. It stays finite at grazing angles, where
+ * Lambda does not. v unit, v.z >= 0. G1(v) = cos / (cos + this). */
+float ndf_masked(const ndf *n, vec3 v);
+
+/* G2(wo, wi) / cos(theta_o), finite for every wo and wi with z > 0. */
+float ndf_masking_over_cosine(const ndf *n, vec3 wo, vec3 wi);
+
+/* D_H, integral of D over the hemisphere: the area of all facets over that of the surface, in [1, 2].
+ * Kneiphof and Klein 2024, Eqs. 29 and 30, averaged over azimuth where the roughness is anisotropic. */
+float ndf_total_area(const ndf *n);
+
+/* A normal with density G1(wo) D(h) max(0, wo.h) / cos(theta_o). wo unit, wo.z > 0; u1, u2 in [0, 1). */
+vec3 ndf_sample_visible(const ndf *n, vec3 wo, float u1, float u2);
+
+/* Integral of 1 / (the facet's own lobe squared): the solid angle of half vectors that a facet with this roughness
+ * reflects about as bright as a mirror of that size. 3 pi alpha^2 for GGX, 2 pi alpha^2 for Beckmann. */
+float ndf_facet_solid_angle(ndf_kind kind, float facet_alpha);
+
+#endif
