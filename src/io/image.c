@@ -1,4 +1,4 @@
-/* The memory of a picture. */
+/* The memory of a picture and the names of its channels. */
 #include "io/image.h"
 
 #include <stdlib.h>
@@ -42,4 +42,26 @@ int image_channel(const image *i, const char *name)
         if (strcmp(i->channel_names[c], name) == 0)
             return c;
     return -1;
+}
+
+bool image_name_channel(image *i, int channel, const char *name, const char *path, report *r)
+{
+    const size_t room = sizeof *i->channel_names;
+    const size_t length = strlen(name);
+    if (length >= room)
+        return report_error(r, "%s: the channel name \"%s\" has %zu bytes, expected at most %zu", path, name, length,
+                            room - 1);
+    memcpy(i->channel_names[channel], name, length + 1);
+    return true;
+}
+
+bool image_check_names(const image *i, const char *path, report *r)
+{
+    for (int c = 0; c < i->channel_count; c++) {
+        if (i->channel_names[c][0] == '\0')
+            return report_error(r, "%s: channel %d has no name", path, c);
+        if (image_channel(i, i->channel_names[c]) != c)
+            return report_error(r, "%s: two channels are called \"%s\"", path, i->channel_names[c]);
+    }
+    return true;
 }

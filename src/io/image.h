@@ -28,6 +28,10 @@ bool image_allocate(image *out, int width, int height, int channel_count, report
 void image_free(image *i);
 /* The index of a channel, or -1. */
 int image_channel(const image *i, const char *name);
+/* A name that is longer than 31 bytes is an error that names path. */
+bool image_name_channel(image *i, int channel, const char *name, const char *path, report *r);
+/* Every channel has a name of its own; if not, an error that names path. */
+bool image_check_names(const image *i, const char *path, report *r);
 
 /* Any format of OpenImageIO, its first picture. Float files come as they are; what stores 8 or 16-bit integers is taken
  * for sRGB with straight alpha and decoded. Channels may come in another order than they were written in: look them up.

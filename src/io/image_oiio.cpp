@@ -1,9 +1,7 @@
 /* All that OpenImageIO does for us: image files in and out, decoded textures, filtered lookups. */
-#include <cmath>
 #include <cstring>
 #include <memory>
 #include <new>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,9 +12,9 @@
 
 #include "io/image.h"
 #include "io/image_bytes.h"
+#include "io/image_srgb.h"
 #include "io/mipmap.h"
 #include "io/output_file.h"
-#include "io/srgb.h"
 #include "io/texture_transform.h"
 
 namespace
@@ -41,38 +39,12 @@ std::string one_line(std::string text)
 {
     while (!text.empty() && text.back() == '\n')
         text.pop_back();
-    for (char &c : text)
-        if (c == '\n')
-            c = ';';
+    for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n'))
+        text.replace(end, 1, "; ");
     return text;
 }
 
 /* ---- pictures in ---- */
-
-bool copy_channel_names(const OIIO::ImageSpec &spec, const char *path, image *out, report *r)
-{
-    for (int c = 0; c < spec.nchannels; c++) {
-        const std::string &name = spec.channelnames[static_cast<size_t>(c)];
-        if (name.size() >= sizeof out->channel_names[c])
-            return report_error(r, "%s: the channel name \"%s\" is too long, expected at most %zu bytes", path,
-                                name.c_str(), sizeof out->channel_names[c] - 1);
-        std::memcpy(out->channel_names[c], name.c_str(), name.size() + 1);
-    }
-    return true;
-}
-
-/* From encoded colours and straight alpha to light multiplied by alpha. */
-void decode_picture(const OIIO::ImageSpec &spec, image *out)
-{
-    const size_t pixel_count = static_cast<size_t>(out->width) * static_cast<size_t>(out->height);
-    for (size_t p = 0; p < pixel_count; p++) {
-        float *pixel = out->pixels + p * static_cast<size_t>(out->channel_count);
-        const double alpha = spec.alpha_channel >= 0 ? static_cast<double>(pixel[spec.alpha_channel]) : 1.0;
-        for (int c = 0; c < out->channel_count; c++)
-            if (c != spec.alpha_channel)
-                pixel[c] = static_cast<float>(srgb_decode(static_cast<double>(pixel[c])) * alpha);
-    }
-}
 
 bool read_picture(const char *path, image *out, report *r)
 {
@@ -84,12 +56,15 @@ bool read_picture(const char *path, image *out, report *r)
     const OIIO::ImageSpec &spec = file->spec();
     if (spec.depth > 1 || spec.deep)
         return report_error(r, "%s: is a volume or a deep image, expected a flat one", path);
-    if (!image_allocate(out, spec.width, spec.height, spec.nchannels, r) || !copy_channel_names(spec, path, out, r))
+    if (!image_allocate(out, spec.width, spec.height, spec.nchannels, r))
         return false;
+    for (int c = 0; c < spec.nchannels; c++)
+        if (!image_name_channel(out, c, spec.channelnames[static_cast<size_t>(c)].c_str(), path, r))
+            return false;
     if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out->pixels) || file->has_error())
         return report_error(r, "%s: cannot be read: %s", path, one_line(file->geterror()).c_str());
     if (spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16)
-        decode_picture(spec, out);
+        image_from_srgb(out, spec.alpha_channel);
     return true;
 }
 
@@ -152,21 +127,9 @@ bool write_picture(const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDe
     return false;
 }
 
-bool check_channel_names(const char *path, const image *i, report *r)
-{
-    std::set<std::string> names;
-    for (int c = 0; c < i->channel_count; c++) {
-        if (i->channel_names[c][0] == '\0')
-            return report_error(r, "%s: channel %d has no name", path, c);
-        if (!names.insert(i->channel_names[c]).second)
-            return report_error(r, "%s: two channels are called \"%s\"", path, i->channel_names[c]);
-    }
-    return true;
-}
-
 bool write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
 {
-    if (!check_channel_names(path, i, r))
+    if (!image_check_names(i, path, r))
         return false;
     OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
     for (int c = 0; c < i->channel_count; c++)
@@ -177,35 +140,14 @@ bool write_exr(const char *path, const image *i, const image_text *metadata, siz
     return write_picture("openexr", spec, OIIO::TypeDesc::FLOAT, i->pixels, path, r);
 }
 
-uint8_t encoded_byte(double linear)
-{
-    if (!(linear > 0.0))
-        return 0;
-    return linear >= 1.0 ? 255 : static_cast<uint8_t>(std::lrint(srgb_encode(linear) * 255.0));
-}
-
 bool write_png(const char *path, const image *i, float exposure_ev, report *r)
 {
-    const int source[4] = { image_channel(i, "R"), image_channel(i, "G"), image_channel(i, "B"),
-                            image_channel(i, "A") };
-    if (source[0] < 0 || source[1] < 0 || source[2] < 0)
+    const int channel_count = image_channel(i, "A") < 0 ? 3 : 4;
+    std::vector<uint8_t> bytes(static_cast<size_t>(i->width) * static_cast<size_t>(i->height) *
+                               static_cast<size_t>(channel_count));
+    if (!image_to_srgb(i, exposure_ev, bytes.data()))
         return report_error(r, "%s: the picture has no channels R, G and B", path);
-    const size_t channel_count = source[3] < 0 ? 3 : 4;
-    const size_t pixel_count = static_cast<size_t>(i->width) * static_cast<size_t>(i->height);
-    const double gain = std::exp2(static_cast<double>(exposure_ev));
-    std::vector<uint8_t> bytes(pixel_count * channel_count);
-    for (size_t p = 0; p < pixel_count; p++) {
-        const float *pixel = i->pixels + p * static_cast<size_t>(i->channel_count);
-        const double alpha = channel_count == 4 ? static_cast<double>(pixel[source[3]]) : 1.0;
-        /* Light without coverage (a glow on nothing) has no straight colour; it is kept as it is. */
-        const double straight = alpha > 0.0 ? gain / alpha : gain;
-        for (size_t c = 0; c < 3; c++)
-            bytes[p * channel_count + c] = encoded_byte(static_cast<double>(pixel[source[c]]) * straight);
-        if (channel_count == 4)
-            bytes[p * 4 + 3] =
-                alpha > 0.0 ? static_cast<uint8_t>(std::lrint(std::fmin(alpha, 1.0) * 255.0)) : static_cast<uint8_t>(0);
-    }
-    OIIO::ImageSpec spec(i->width, i->height, static_cast<int>(channel_count), OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(i->width, i->height, channel_count, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
@@ -281,17 +223,6 @@ class mipmap_input final : public OIIO::ImageInput
     int level_ = 0;
 };
 
-/* Spreads grey and alpha, which lie in the first two of four channels. */
-void spread_grey(mipmap *m)
-{
-    const mipmap_level &level = m->levels[0];
-    const size_t count = static_cast<size_t>(level.width) * static_cast<size_t>(level.height);
-    for (uint16_t *texel = level.texels; texel != level.texels + 4 * count; texel += 4) {
-        texel[3] = texel[1];
-        texel[1] = texel[2] = texel[0];
-    }
-}
-
 /* Decodes into level 0 as 16-bit integers; 8-bit codes v become 257 v, the same fraction. */
 bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, report *r)
 {
@@ -318,7 +249,7 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
     if (!complaint.empty())
         report_warning(r, "%s: %s", name, complaint.c_str());
     if (spec.nchannels == 2)
-        spread_grey(out);
+        mipmap_spread_grey(out);
     return true;
 }
 
@@ -335,15 +266,6 @@ bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
         return report_error(r, "%s: does not fit into memory", picture.name);
     mipmap_build(out);
     return true;
-}
-
-std::vector<const scene_texture *> textures_of(const scene_material &m)
-{
-    return { &m.base_color_texture,          &m.metallic_roughness_texture, &m.normal_texture,
-             &m.occlusion_texture,           &m.emissive_texture,           &m.specular_texture,
-             &m.specular_color_texture,      &m.anisotropy_texture,         &m.clearcoat_texture,
-             &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,   &m.glint.texture,
-             &m.glint.density_texture,       &m.glint.color_texture,        &m.glint.example_texture };
 }
 
 OIIO::TextureOpt::Wrap wrap_mode(scene_wrap wrap)
@@ -441,10 +363,13 @@ bool textures_open(const scene *s, textures **out, report *r)
     *out = nullptr;
     return guarded("textures", r, [&] {
         auto opened = std::make_unique<textures>(s->image_count);
-        for (int m = 0; m < s->material_count; m++)
-            for (const scene_texture *use : textures_of(s->materials[m]))
+        for (int m = 0; m < s->material_count; m++) {
+            const scene_texture *uses[SCENE_MATERIAL_TEXTURES];
+            scene_material_textures(&s->materials[m], uses);
+            for (const scene_texture *use : uses)
                 if (use->image != SCENE_NONE && !opened->open(*s, *use, r))
                     return false;
+        }
         *out = opened.release();
         return true;
     });

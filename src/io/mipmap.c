@@ -85,6 +85,16 @@ static uint16_t texel_code(mipmap_coding coding, double value)
     return coding == MIPMAP_HALF ? half_code((float)value) : (uint16_t)lrint(value);
 }
 
+void mipmap_spread_grey(mipmap *m)
+{
+    const size_t count = level_size(m, &m->levels[0]);
+    uint16_t *texels = m->levels[0].texels;
+    for (size_t i = 0; i < count; i += 4) {
+        texels[i + 3] = texels[i + 1];
+        texels[i + 1] = texels[i + 2] = texels[i];
+    }
+}
+
 bool mipmap_decode_srgb(mipmap *m)
 {
     uint16_t *linear = malloc(65536 * sizeof *linear);

@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 /* What 16 bits hold. Data keep even spacing, so that 8-bit and 16-bit files are exact; linear colours need fine steps
- * near black, where sRGB has them, so they are half floats (relative rounding 2^-12 at most above 6e-5). */
+ * near black, where sRGB has them, so they are half floats (rounding 2^-11 of the value at most, above 6e-5). */
 typedef enum mipmap_coding { MIPMAP_UNORM16, MIPMAP_HALF } mipmap_coding;
 
 #define MIPMAP_SIDE_MAX 16384                 /* what GPUs that glTF is made for can hold */
@@ -34,6 +34,9 @@ typedef struct mipmap {
 /* Room for all levels; sizes beyond the limits are errors that name the image. The coding is MIPMAP_UNORM16. */
 bool mipmap_allocate(mipmap *out, int width, int height, int channel_count, const char *name, report *r);
 void mipmap_free(mipmap *m);
+
+/* Level 0 has grey and alpha in the first two of four channels: makes them RGBA. */
+void mipmap_spread_grey(mipmap *m);
 
 /* Turns level 0 from sRGB in MIPMAP_UNORM16 into linear MIPMAP_HALF; alpha is linear in both. False without memory. */
 bool mipmap_decode_srgb(mipmap *m);

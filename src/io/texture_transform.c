@@ -11,8 +11,8 @@ typedef struct matrix2 {
 } matrix2;
 
 /* v points down, so the rotation that looks counter-clockwise takes (1, 0) to (cos, -sin): the extension's text says
- * counter-clockwise, and its example (a quarter turn with the offset (0, 1) keeps the image) holds only so; the sign of
- * the matrix in its first draft was a mistake (KhronosGroup/glTF issue 1563). */
+ * counter-clockwise, and its example (a quarter turn, scale 1/2 and offset (0, 1) show the lower left quarter) holds
+ * only so; the sign of the matrix in its first draft was a mistake (KhronosGroup/glTF issue 1563). */
 static matrix2 rotation_times_scale(const scene_texture *which)
 {
     const double u = (double)which->scale[0], v = (double)which->scale[1];

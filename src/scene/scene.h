@@ -164,6 +164,10 @@ void scene_free(scene *s);
 scene_material scene_material_default(void);
 scene_texture scene_texture_none(void);
 
+#define SCENE_MATERIAL_TEXTURES 15
+/* All textures of a material, those without an image included. They belong to m. */
+void scene_material_textures(const scene_material *m, const scene_texture *list[SCENE_MATERIAL_TEXTURES]);
+
 #ifdef __cplusplus
 }
 #endif
