@@ -11,7 +11,7 @@ enum { WIDTH = 256, HEIGHT = 64 };
 static const double pixel_m = 0.0005;          /* half a millimetre of surface per pixel */
 static const float lamp_m[3] = { 0, 0, 0.4F }; /* above the middle of the strip */
 static const float eye_m[3] = { 0, -0.3F, 0.5F };
-static const float lamp_radius_m = 0.01F;
+static const float lamp_radius_m = 0.03F;
 
 static float direction(const float to[3], double u, double v, float out[3])
 {
@@ -26,7 +26,7 @@ int main(void)
 {
     glint_material_options options = GLINT_MATERIAL_OPTIONS_INIT;
     options.surface.alpha_x = options.surface.alpha_y = 0.3F; /* how far the flakes tilt */
-    options.surface.facets_per_m2 = 2e7F;                     /* five under each pixel */
+    options.surface.facets_per_m2 = 1e8F;                     /* 25 under each pixel */
 
     glint_material *material;
     char message[256];
@@ -38,7 +38,7 @@ int main(void)
     printf("P2 %d %d 255\n", WIDTH, HEIGHT);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
-            const double u = (x - WIDTH / 2) * pixel_m, v = (HEIGHT / 2 - y) * pixel_m;
+            const double u = (x - 0.5 * WIDTH) * pixel_m, v = (0.5 * HEIGHT - y) * pixel_m;
             const glint_footprint footprint = { .u = u, .v = v, .dudx = (float)pixel_m, .dvdy = (float)-pixel_m };
 
             float wo[3], wi[3], rgb[3];
@@ -48,7 +48,7 @@ int main(void)
             const glint_light lamp = { GLINT_LIGHT_CAP, solid_angle };
 
             glint_eval(material, NULL, &footprint, wo, wi, &lamp, rgb);
-            printf("%d\n", (int)fminf(255.0F, 60.0F * rgb[0])); /* a lamp that gives 1 W/m^2, and an exposure of 60 */
+            printf("%d\n", (int)fminf(255.0F, 100.0F * rgb[0])); /* a lamp that gives 1 W/m^2, and an exposure of 100 */
         }
     }
     glint_material_destroy(material);
