@@ -10,36 +10,59 @@
 
 typedef enum preview_model { PREVIEW_MODEL_AUTO = -1 } preview_model; /* else a glint_model */
 
+/* A sky that is a gradient in the height of the direction; radiance, linear RGB, y is up. */
+typedef struct preview_sky {
+    float zenith[3], horizon[3], ground[3];
+} preview_sky;
+
 typedef struct preview_options {
-    size_t size;               /* set by PREVIEW_OPTIONS_INIT */
-    int width, height;
-    int tile_x, tile_y, tile_width, tile_height; /* the part to render; width 0: all */
-    int spp;                   /* samples per pixel */
-    int bounces;               /* of indirect light; 0: direct only */
-    int threads;               /* 0: one a core */
-    uint32_t seed;
-    int model;                 /* a glint_model for every material, or PREVIEW_MODEL_AUTO */
+    size_t size;                                 /* set by PREVIEW_OPTIONS_INIT */
+    int width, height;                           /* pixels, [1, 65536] */
+    int tile_x, tile_y, tile_width, tile_height; /* the part to render, inside the picture; width 0: all */
+    int spp;                                     /* samples per pixel, [1, 65536]; powers of 4 are spread best */
+    int bounces;                /* of indirect light from surface to surface, [0, 64]; 0: lights and sky only */
+    int threads;                /* 0: one a core */
+    uint32_t seed;              /* of the sampling noise; the facets have the material's own */
+    int model;                  /* a glint_model for every material, or PREVIEW_MODEL_AUTO */
     const scene_camera *camera; /* NULL: the scene's first, or one framed around it */
-    bool aov;                  /* the channels of --aov as well */
+    bool aov;                   /* the channels of --aov as well */
+    /* From the calling thread, about ten times a second. */
     void (*progress)(double fraction, double elapsed_s, double left_s, void *user);
     void *user;
     const atomic_bool *cancel; /* may be NULL; when it turns true, rendering ends and returns false without an error */
+    const preview_sky *sky;    /* NULL: that of the rig where the scene has no lights, else black */
+    bool transparent;          /* camera rays do not see the sky: alpha 0 there */
 } preview_options;
 
-#define PREVIEW_OPTIONS_INIT { sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, 0, false, 0, 0, 0 }
+#define PREVIEW_OPTIONS_INIT                                                                                           \
+    {                                                                                                                  \
+        sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, 0, false, 0, 0, 0, 0, false   \
+    }
 
 typedef struct preview_statistics {
     double load_s, build_s, render_s;
     uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
 } preview_statistics;
 
-/* Pixels are scene-linear. The bits depend on the scene, the options and nothing else: not on the number of threads, the
- * tile or the machine. A scene without a camera gets a framed one; without lights, a lookdev rig. */
-bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics, report *r);
+/* Renders into *out, which has the size of the tile.
+ *
+ * Pixels are scene-linear. The bits depend on the scene, the options and nothing else: not on the number of threads,
+ * the tile or the machine. A scene without a camera gets a framed one; without lights, a lookdev rig and its sky.
+ *
+ * Channels: R G B A, with RGB multiplied by A. With aov also, all as means over the samples of the pixel:
+ *   smooth.R/G/B    the same picture, sample by sample, without discreteness
+ *   glints.N        facets under the pixel, in the layer and the surface that the camera sees first
+ *   glints.p        probability that one of them reflects the light that is brightest there to the camera
+ *   normal.X/Y/Z    shading normal of the base, world space, towards the camera
+ *   albedo.R/G/B    base colour
+ *   depth.Z         metres along the viewing direction, the mean over the samples that hit something; 0: none did
+ * On failure *out is zeroed. statistics may be NULL. */
+bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,
+                    report *r);
 
 /* What the two lines above add. */
 scene_camera preview_framed_camera(const scene *s, int width, int height);
-/* Appends a key light, a fill and a rim, sized to the scene, to s->lights. */
+/* Appends a key light, a fill and a rim, placed around the view of the first camera, to s->lights. */
 bool preview_add_lookdev_rig(scene *s, report *r);
 
 #endif

@@ -1,0 +1,63 @@
+/* Channels of the film, and the mean that goes into them. */
+#include "preview/film.h"
+
+#include <stdio.h>
+
+static const char *const CHANNELS[] = {
+    "R",        "G",        "B",        "A",        "smooth.R", "smooth.G", "smooth.B", "glints.N",
+    "glints.p", "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B", "depth.Z",
+};
+#define PICTURE_CHANNELS 4
+#define ALL_CHANNELS 16
+
+bool film_make(image *out, int width, int height, bool aov, report *r)
+{
+    if (!image_allocate(out, width, height, aov ? ALL_CHANNELS : PICTURE_CHANNELS, r))
+        return false;
+    for (int c = 0; c < out->channel_count; ++c)
+        snprintf(out->channel_names[c], sizeof out->channel_names[c], "%s", CHANNELS[c]);
+    return true;
+}
+
+static void add(double *sums, const float *values, int count)
+{
+    for (int i = 0; i < count; ++i)
+        sums[i] += (double)values[i];
+}
+
+void film_add(film_pixel *pixel, const pixel_sample *sample)
+{
+    add(pixel->rgba, sample->light.discrete, 3);
+    add(&pixel->rgba[3], &sample->alpha, 1);
+    add(pixel->smooth, sample->light.smooth, 3);
+    add(&pixel->facet_count, &sample->facet_count, 1);
+    add(&pixel->lit_probability, &sample->lit_probability, 1);
+    add(pixel->normal, sample->normal, 3);
+    add(pixel->albedo, sample->albedo, 3);
+    add(&pixel->depth, &sample->depth, 1);
+    ++pixel->samples;
+    if (sample->depth > 0.0F)
+        ++pixel->hits;
+}
+
+static float *put(float *to, const double *sums, int count, uint32_t samples)
+{
+    for (int i = 0; i < count; ++i)
+        *to++ = samples > 0 ? (float)(sums[i] / samples) : 0.0F;
+    return to;
+}
+
+void film_write(image *film, int x, int y, const film_pixel *pixel)
+{
+    const uint32_t n = pixel->samples;
+    float *to = &film->pixels[((size_t)y * (size_t)film->width + (size_t)x) * (size_t)film->channel_count];
+    to = put(to, pixel->rgba, 4, n);
+    if (film->channel_count == PICTURE_CHANNELS)
+        return;
+    to = put(to, pixel->smooth, 3, n);
+    to = put(to, &pixel->facet_count, 1, n);
+    to = put(to, &pixel->lit_probability, 1, n);
+    to = put(to, pixel->normal, 3, n);
+    to = put(to, pixel->albedo, 3, n);
+    put(to, &pixel->depth, 1, pixel->hits);
+}

@@ -1,0 +1,47 @@
+/* What a mesh says about the point that a ray has hit: frame, texture coordinates, colour, and their derivatives. */
+#ifndef PREVIEW_HIT_H
+#define PREVIEW_HIT_H
+
+#include "preview/differential.h"
+#include "preview/trace.h"
+
+typedef struct hit {
+    const scene_mesh *mesh;
+    const scene_instance *instance;
+    const geometry_instance *placed;
+    triangle_corners corners;
+    double weights[2]; /* of the corners 1 and 2 */
+    double distance;
+    vec3 position, position_object;
+    vec3 edge[2];                  /* world: from corner 0 to corners 1 and 2 */
+    bool front;                    /* seen from its front: counter-clockwise in the object's space */
+    vec3 geometric_normal, normal; /* world, unit, on the viewer's side */
+    vec3 tangent;                  /* world, unit, perpendicular to normal; along u where the mesh has tangents */
+    vec3 bitangent;                /* along v: cross(normal, tangent) times the handedness, normal of the front */
+    vec3 shadow_origin;            /* where shadow rays start: on the surface that the normals suggest */
+    double texcoord[2][2];         /* of both sets; 0 where the mesh has none */
+    float color[4];                /* of the vertices; 1 where there is none */
+} hit;
+
+/* How the weights of the triangle and with them everything interpolated changes with a step of one pixel. */
+typedef struct hit_step {
+    surface_step position;
+    double weights_dx[2], weights_dy[2];
+    surface_step normal; /* of the interpolated unit normal */
+} hit_step;
+
+/* Only what needs no view of it: triangle, texture coordinates and colour. */
+void hit_locate(const geometry *g, const trace_hit *found, hit *out);
+
+void hit_resolve(const geometry *g, const trace_ray *ray, const trace_hit *found, hit *out);
+
+/* The differential of the ray that led to the hit, carried to the surface. */
+hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction);
+
+/* d(s, t)/dx and /dy of a set of texture coordinates; zero where the mesh has none. */
+void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2], double dy[2]);
+
+/* Moves the start of a ray off the surface, to the viewer's side, by more than the rounding of single precision. */
+vec3 hit_leave(const hit *h, vec3 from);
+
+#endif

@@ -1,0 +1,45 @@
+/* Light that reaches the camera through one point of the picture: a path with direct light at every hit. */
+#ifndef PREVIEW_INTEGRATOR_H
+#define PREVIEW_INTEGRATOR_H
+
+#include "preview/camera.h"
+#include "preview/light.h"
+#include "preview/preview.h"
+#include "preview/shade.h"
+
+/* All that a sample reads; nothing of it changes while rendering. */
+typedef struct world {
+    const geometry *geometry;
+    const trace_scene *trace;
+    const camera *camera;
+    const light *lights;
+    int light_count;
+    shader shader;
+    preview_sky sky;
+    bool has_sky, sky_seen; /* seen: by the camera */
+    int bounces, spp;
+    uint32_t seed;
+} world;
+
+/* The same light twice: with single facets and without. */
+typedef struct radiance {
+    float discrete[3], smooth[3];
+} radiance;
+
+typedef struct pixel_sample {
+    radiance light; /* multiplied by alpha */
+    float alpha;    /* coverage */
+    float facet_count, lit_probability;
+    float normal[3], albedo[3];
+    float depth; /* metres; 0: nothing was hit */
+} pixel_sample;
+
+/* The counters of a thread. */
+typedef struct ray_counts {
+    uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
+} ray_counts;
+
+/* Sample number index of the pixel (x, y), which stands for 1/spp of it. */
+void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts);
+
+#endif

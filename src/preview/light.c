@@ -1,0 +1,109 @@
+/* Punctual lights that have a size after all: the size makes soft shadows and decides how many facets are lit. */
+#include "preview/light.h"
+
+/* The cap may not cover the hemisphere: a hair less than 2 pi, so that single precision stays below it too. */
+#define LARGEST_CAP (2.0 * PREVIEW_PI * (1.0 - 1e-6))
+/* A light without size would light no facet: an angular radius of 1e-5 rad, a 50th of a planet's disc. Taste. */
+#define SMALLEST_ANGLE 1e-5
+
+double light_cap_sr(double angular_radius_rad)
+{
+    const double half = sin(0.5 * angular_radius_rad);
+    return 4.0 * PREVIEW_PI * half * half;
+}
+
+static double clamp_cap(double solid_angle)
+{
+    return fmin(fmax(solid_angle, light_cap_sr(SMALLEST_ANGLE)), LARGEST_CAP);
+}
+
+light light_make(const scene_light *from)
+{
+    double m[16];
+    for (int i = 0; i < 16; ++i)
+        m[i] = (double)from->to_world[i];
+    light l = { .kind = from->kind, .position = m4_column(m, 3), .axis = v3_normalize(m4_column(m, 2)) };
+    for (int c = 0; c < 3; ++c)
+        l.intensity[c] = from->color[c] * from->intensity;
+    l.range = from->range > 0.0F ? (double)from->range : (double)INFINITY;
+    l.radius = (double)from->radius_m;
+
+    const double angle = 0.5 * fmin((double)from->angular_diameter_rad, PREVIEW_PI);
+    l.cosine = cos(angle);
+    l.solid_angle_sr = (float)clamp_cap(light_cap_sr(angle));
+
+    /* KHR_lights_punctual, "Inner and Outer Cone Angles". */
+    const double inner = cos((double)from->inner_cone_rad);
+    const double outer = cos((double)from->outer_cone_rad);
+    l.cone_scale = 1.0 / fmax(0.001, inner - outer);
+    l.cone_offset = -outer * l.cone_scale;
+    return l;
+}
+
+static double spot_factor(const light *l, vec3 wi)
+{
+    const double t = fmin(fmax(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
+    return t * t;
+}
+
+/* max(min(1 - (d / range)^4, 1), 0): KHR_lights_punctual, "Range Property". */
+static double range_factor(double distance, double range)
+{
+    const double ratio = distance / range;
+    const double square = ratio * ratio;
+    return fmax(1.0 - square * square, 0.0);
+}
+
+static bool set_irradiance(const light *l, double factor, light_view *out)
+{
+    float largest = 0.0F;
+    for (int c = 0; c < 3; ++c) {
+        out->irradiance[c] = (float)((double)l->intensity[c] * factor);
+        largest = fmaxf(largest, out->irradiance[c]);
+    }
+    return largest > 0.0F;
+}
+
+bool light_see(const light *l, vec3 position, light_view *out)
+{
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
+        out->wi = l->axis;
+        out->distance = (double)INFINITY;
+        out->solid_angle_sr = l->solid_angle_sr;
+        return set_irradiance(l, 1.0, out);
+    }
+    const vec3 towards = v3_sub(l->position, position);
+    const double distance = v3_length(towards);
+    if (!(distance > 0.0))
+        return false;
+    out->wi = v3_scale(towards, 1.0 / distance);
+    out->distance = distance;
+    /* A sphere of radius r: sin of its angular radius is r / d. Inside it, the cap is held below a hemisphere. */
+    const double sine = fmin(l->radius / distance, 1.0);
+    out->solid_angle_sr = (float)clamp_cap(light_cap_sr(asin(sine)));
+    const double cone = l->kind == SCENE_LIGHT_SPOT ? spot_factor(l, out->wi) : 1.0;
+    return set_irradiance(l, cone * range_factor(distance, l->range) / (distance * distance), out);
+}
+
+void light_pick(const light *l, const light_view *view, vec3 position, const double u[2], vec3 *direction,
+                double *distance)
+{
+    const vec3 tangent = v3_any_tangent(view->wi);
+    const vec3 bitangent = v3_cross(view->wi, tangent);
+    const double angle = 2.0 * PREVIEW_PI * u[1];
+
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
+        const double cosine = 1.0 - u[0] * (1.0 - l->cosine); /* even over the cap */
+        const double sine = sqrt(fmax(1.0 - cosine * cosine, 0.0));
+        const vec3 side = v3_mad(v3_scale(tangent, cos(angle) * sine), bitangent, sin(angle) * sine);
+        *direction = v3_normalize(v3_mad(side, view->wi, cosine));
+        *distance = (double)INFINITY;
+        return;
+    }
+    /* Even over the disc that faces the point; from within the sphere, its centre. */
+    const double r = l->radius < view->distance ? l->radius * sqrt(u[0]) : 0.0;
+    const vec3 side = v3_mad(v3_scale(tangent, cos(angle) * r), bitangent, sin(angle) * r);
+    const vec3 towards = v3_sub(v3_add(l->position, side), position);
+    *distance = v3_length(towards);
+    *direction = v3_scale(towards, 1.0 / *distance);
+}

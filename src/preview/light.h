@@ -1,0 +1,39 @@
+/* The lights of KHR_lights_punctual as a point of the scene sees them: direction, irradiance and solid angle. */
+#ifndef PREVIEW_LIGHT_H
+#define PREVIEW_LIGHT_H
+
+#include "preview/vector.h"
+#include "scene/scene.h"
+
+typedef struct light {
+    scene_light_kind kind;
+    vec3 position;
+    vec3 axis;                      /* unit, against the direction in which it shines */
+    float intensity[3];             /* directional: W/m^2; point and spot: W/sr; as in the file, colour multiplied in */
+    double range;                   /* metres, infinite where there is none */
+    double cone_scale, cone_offset; /* spot: saturate(cos * scale + offset)^2 */
+    double radius;                  /* metres: point and spot */
+    double cosine;                  /* directional: of its angular radius */
+    float solid_angle_sr;           /* directional */
+} light;
+
+light light_make(const scene_light *from);
+
+typedef struct light_view {
+    vec3 wi;              /* unit, towards the centre of the light */
+    double distance;      /* metres, infinite for a directional light */
+    float irradiance[3];  /* on a surface that faces the light; no shadow */
+    float solid_angle_sr; /* (0, 2 pi) */
+} light_view;
+
+/* False when no light comes this way: behind a spot's cone, out of range, black. */
+bool light_see(const light *l, vec3 position, light_view *out);
+
+/* A point of the light for a shadow ray, from two uniforms in [0, 1): its unit direction and how far the ray goes. */
+void light_pick(const light *l, const light_view *view, vec3 position, const double u[2], vec3 *direction,
+                double *distance);
+
+/* Solid angle of a cap, 2 pi (1 - cos), without the cancellation at small angles. */
+double light_cap_sr(double angular_radius_rad);
+
+#endif

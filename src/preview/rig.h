@@ -1,0 +1,19 @@
+/* What lights a file that brings no light of its own: three lights and a sky. */
+#ifndef PREVIEW_RIG_H
+#define PREVIEW_RIG_H
+
+#include "preview/preview.h"
+#include "preview/vector.h"
+
+#define RIG_LIGHT_COUNT 3
+
+/* Key, fill and rim, placed around the view of the camera; without names. */
+void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT]);
+
+/* The studio around the rig. */
+preview_sky rig_sky(void);
+
+/* Radiance from a direction (world, unit). */
+void sky_radiance(const preview_sky *sky, vec3 direction, float rgb[3]);
+
+#endif

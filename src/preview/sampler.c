@@ -1,0 +1,57 @@
+/* Owen-scrambled Sobol points in two dimensions, with a shuffled order for every pair of dimensions. */
+#include "preview/sampler.h"
+
+#include "preview/hash.h"
+
+static uint32_t reverse_bits(uint32_t x)
+{
+    x = (x >> 16) | (x << 16);
+    x = ((x & 0xff00ff00U) >> 8) | ((x & 0x00ff00ffU) << 8);
+    x = ((x & 0xf0f0f0f0U) >> 4) | ((x & 0x0f0f0f0fU) << 4);
+    x = ((x & 0xccccccccU) >> 2) | ((x & 0x33333333U) << 2);
+    return ((x & 0xaaaaaaaaU) >> 1) | ((x & 0x55555555U) << 1);
+}
+
+/* Flips each bit by a hash of the bits below it: Laine and Karras 2011, with the constants of Burley 2020, Sec. 4. */
+static uint32_t permute_upwards(uint32_t x, uint32_t seed)
+{
+    x += seed;
+    x ^= x * 0x6c50b47cU;
+    x ^= x * 0xb82f1e52U;
+    x ^= x * 0xc7afe638U;
+    x ^= x * 0x8d22f6e6U;
+    return x;
+}
+
+/* Owen's nested uniform scramble: each bit is flipped by a hash of the bits above it. */
+static uint32_t owen_scramble(uint32_t x, uint32_t seed)
+{
+    return reverse_bits(permute_upwards(reverse_bits(x), seed));
+}
+
+/* The second Sobol dimension: the k-th direction number is Pascal's triangle modulo 2, v(k+1) = v(k) xor v(k) >> 1. */
+static uint32_t sobol_second(uint32_t index)
+{
+    uint32_t result = 0;
+    for (uint32_t direction = 0x80000000U; index != 0; index >>= 1, direction ^= direction >> 1)
+        result ^= (index & 1U) != 0 ? direction : 0U;
+    return result;
+}
+
+sampler sampler_make(int x, int y, uint32_t sample, uint32_t seed)
+{
+    return (sampler){ hash_combine(hash_combine(hash_mix(seed), (uint32_t)x), (uint32_t)y), sample };
+}
+
+void sampler_pair(const sampler *s, uint32_t dimension, double u[2])
+{
+    const uint32_t seed = hash_combine(s->pixel, dimension);
+    const uint32_t index = owen_scramble(s->sample, seed); /* a shuffle that keeps blocks of 4^k together */
+    u[0] = (double)owen_scramble(reverse_bits(index), hash_combine(seed, 1U)) * 0x1p-32;
+    u[1] = (double)owen_scramble(sobol_second(index), hash_combine(seed, 2U)) * 0x1p-32;
+}
+
+uint32_t sampler_bits(const sampler *s, uint32_t dimension)
+{
+    return hash_combine(hash_combine(s->pixel, dimension), s->sample);
+}

@@ -1,0 +1,88 @@
+/* How the layers of a prepared point scatter light: evaluation and sampling of their sum. */
+#include "preview/shade.h"
+
+static void to_local(const shade_layer *layer, vec3 world, float local[3])
+{
+    local[0] = (float)v3_dot(world, layer->x);
+    local[1] = (float)v3_dot(world, layer->y);
+    local[2] = (float)v3_dot(world, layer->z);
+}
+
+static vec3 to_world(const shade_layer *layer, const float local[3])
+{
+    const vec3 in_plane = v3_mad(v3_scale(layer->x, (double)local[0]), layer->y, (double)local[1]);
+    return v3_normalize(v3_mad(in_plane, layer->z, (double)local[2]));
+}
+
+bool shade_faces(const shade_point *p, vec3 wi)
+{
+    for (int i = 0; i < p->layer_count; ++i) {
+        if (p->layers[i].wo[2] > 0.0F && v3_dot(wi, p->layers[i].z) > 0.0)
+            return true;
+    }
+    return false;
+}
+
+void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
+{
+    const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
+    *value = (glint_value){ 0 };
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        float local[3];
+        glint_value one;
+        to_local(layer, wi, local);
+        glint_eval_value(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, local,
+                         &light, &one);
+        for (int c = 0; c < 3; ++c) {
+            value->rgb[c] += layer->weight * one.rgb[c];
+            value->smooth[c] += layer->weight * one.smooth[c];
+        }
+        if (layer->counts) {
+            value->facet_count = one.facet_count;
+            value->lit_probability = one.lit_probability;
+        }
+    }
+}
+
+/* A guess of how much a layer reflects, which only steers the choice between layers. */
+static float importance(const shade_layer *layer)
+{
+    const glint_surface *const s = &layer->surface;
+    const float away = 1.0F - fminf(fmaxf(layer->wo[2], 0.0F), 1.0F);
+    const float fifth = away * away * away * away * away;
+    float sum = 0.0F;
+    for (int c = 0; c < 3; ++c)
+        sum += s->diffuse[c] + s->f0[c] + (s->f90[c] - s->f0[c]) * fifth;
+    return layer->weight * sum;
+}
+
+bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
+{
+    float share = 1.0F;
+    const shade_layer *layer = &p->layers[0];
+    if (p->layer_count == 0)
+        return false;
+    if (p->layer_count == 2) {
+        const float base = importance(&p->layers[0]);
+        const float coat = importance(&p->layers[1]);
+        const float share_of_coat = base + coat > 0.0F ? coat / (base + coat) : 0.5F;
+        const bool take_coat = choose_layer < share_of_coat;
+        layer = &p->layers[take_coat ? 1 : 0];
+        share = take_coat ? share_of_coat : 1.0F - share_of_coat;
+    }
+
+    /* glTF: occlusion darkens diffuse light from all around, nothing else. */
+    glint_surface surface = layer->surface;
+    for (int c = 0; c < 3; ++c)
+        surface.diffuse[c] *= p->occlusion;
+
+    glint_sample sample;
+    if (!glint_sample_direction(layer->material, &surface, layer->wo, random, &sample))
+        return false;
+    out->wi = to_world(layer, sample.wi);
+    out->pdf = sample.pdf * share;
+    for (int c = 0; c < 3; ++c)
+        out->weight[c] = sample.weight[c] * layer->weight / share;
+    return true;
+}

@@ -1,0 +1,209 @@
+/* Textures, normal maps and the clear coat of glTF 2.0, brought to calls of libglint. */
+#include "preview/shade.h"
+
+#include "preview/place.h"
+#include "scene/surface.h"
+
+/* How far above the horizon of a bent normal the viewer is kept at least: sin of a twentieth of a degree. Taste. */
+#define HORIZON 1e-3
+
+/* All that a lookup needs to know about the hit. */
+typedef struct lookup {
+    const textures *textures;
+    const hit *hit;
+    double dx[2][2], dy[2][2]; /* of both sets of texture coordinates */
+} lookup;
+
+static void look_up(const lookup *l, const scene_texture *t, float rgba[4])
+{
+    rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1.0F;
+    if (t->image == SCENE_NONE)
+        return;
+    const int set = t->texcoord;
+    texture_lookup(l->textures, t, (float)l->hit->texcoord[set][0], (float)l->hit->texcoord[set][1],
+                   (float)l->dx[set][0], (float)l->dx[set][1], (float)l->dy[set][0], (float)l->dy[set][1], rgba);
+}
+
+static lookup make_lookup(const shader *s, const hit *h, const hit_step *step)
+{
+    lookup l = { .textures = s->textures, .hit = h };
+    for (int set = 0; set < 2; ++set)
+        hit_texcoord_step(h, step, set, l.dx[set], l.dy[set]);
+    return l;
+}
+
+static void look_up_base_color(const lookup *l, const scene_material *m, float rgba[4])
+{
+    look_up(l, &m->base_color_texture, rgba);
+    for (int i = 0; i < 4; ++i)
+        rgba[i] *= m->base_color[i] * l->hit->color[i];
+}
+
+static scene_texels look_up_texels(const lookup *l, const scene_material *m)
+{
+    scene_texels t = scene_texels_of(m);
+    float c[4];
+    look_up_base_color(l, m, t.base_color);
+    look_up(l, &m->metallic_roughness_texture, c);
+    t.roughness *= c[1];
+    t.metallic *= c[2];
+    look_up(l, &m->specular_texture, c);
+    t.specular *= c[3];
+    look_up(l, &m->specular_color_texture, c);
+    for (int i = 0; i < 3; ++i)
+        t.specular_color[i] *= c[i];
+    look_up(l, &m->anisotropy_texture, c);
+    t.anisotropy *= c[2];
+    look_up(l, &m->clearcoat_texture, c);
+    t.clearcoat *= c[0];
+    look_up(l, &m->clearcoat_roughness_texture, c);
+    t.clearcoat_roughness *= c[1];
+    if (!m->glint.present)
+        return t;
+    look_up(l, &m->glint.texture, c);
+    t.glint_factor *= c[0];
+    look_up(l, &m->glint.density_texture, c);
+    t.glint_density *= c[1];
+    look_up(l, &m->glint.color_texture, c);
+    for (int i = 0; i < 3; ++i)
+        t.glint_color[i] *= c[i];
+    return t;
+}
+
+/* ---- frames ---- */
+
+/* The normal that a map asks for, kept where the viewer can see it. */
+static vec3 mapped_normal(const lookup *l, const scene_texture *map, vec3 wo)
+{
+    const hit *const h = l->hit;
+    if (map->image == SCENE_NONE || h->mesh->tangent == NULL)
+        return h->normal;
+    float c[4];
+    look_up(l, map, c);
+    const double x = (2.0 * (double)c[0] - 1.0) * (double)map->strength;
+    const double y = (2.0 * (double)c[1] - 1.0) * (double)map->strength;
+    const double z = 2.0 * (double)c[2] - 1.0;
+    /* Seen from behind, the whole frame turns over; h->normal has turned already. */
+    const double side = h->front ? 1.0 : -1.0;
+    const vec3 bent = v3_mad(v3_mad(v3_scale(h->normal, z), h->tangent, x * side), h->bitangent, y * side);
+    const vec3 n = v3_normalize(bent);
+    if (v3_dot(n, n) == 0.0)
+        return h->normal;
+    const double above = v3_dot(n, wo);
+    return above >= HORIZON ? n : v3_normalize(v3_mad(n, wo, HORIZON - above));
+}
+
+/* The direction along which alpha_x lies, in the tangent plane of the mesh (KHR_materials_anisotropy). */
+static vec3 anisotropy_direction(const lookup *l, const scene_material *m)
+{
+    const hit *const h = l->hit;
+    double x = 1.0, y = 0.0;
+    if (m->anisotropy_texture.image != SCENE_NONE) {
+        float c[4];
+        look_up(l, &m->anisotropy_texture, c);
+        x = 2.0 * (double)c[0] - 1.0;
+        y = 2.0 * (double)c[1] - 1.0;
+    }
+    const double co = cos((double)m->anisotropy_rotation);
+    const double si = sin((double)m->anisotropy_rotation);
+    return v3_mad(v3_scale(h->tangent, co * x - si * y), h->bitangent, si * x + co * y);
+}
+
+static void set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
+{
+    const vec3 flat = v3_reject(along, normal);
+    layer->z = normal;
+    layer->x = v3_dot(flat, flat) > 0.0 ? v3_normalize(flat) : v3_any_tangent(normal);
+    layer->y = v3_cross(layer->z, layer->x);
+    layer->wo[0] = (float)v3_dot(wo, layer->x);
+    layer->wo[1] = (float)v3_dot(wo, layer->y);
+    layer->wo[2] = (float)v3_dot(wo, layer->z);
+}
+
+/* ---- layers ---- */
+
+/* The clear coat's Fresnel term, on the angle to the viewer: KHR_materials_clearcoat. */
+static float coat_reflectance(const glint_surface *coat, float cosine)
+{
+    const float away = 1.0F - fminf(fmaxf(cosine, 0.0F), 1.0F);
+    const float fifth = away * away * away * away * away;
+    return coat->f0[0] + (coat->f90[0] - coat->f0[0]) * fifth;
+}
+
+static void add_coat(const lookup *l, const scene_material *m, const scene_texels *t, const material_layers *handles,
+                     vec3 wo, shade_point *out)
+{
+    if (handles->coat == NULL || !(t->clearcoat > 0.0F))
+        return;
+    shade_layer *const coat = &out->layers[out->layer_count++];
+    coat->material = handles->coat;
+    coat->counts = handles->coat_counts;
+    coat->surface = scene_coat_surface(m, t);
+    coat->weight = fminf(t->clearcoat, 1.0F);
+    set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
+
+    const float below = 1.0F - coat->weight * coat_reflectance(&coat->surface, coat->wo[2]);
+    out->layers[0].weight = below;
+    for (int i = 0; i < 3; ++i)
+        out->emission[i] *= below;
+}
+
+static void place_glints(const hit *h, const hit_step *step, const scene_glint *g, float choice, shade_point *out)
+{
+    for (int i = 0; i < out->layer_count; ++i) {
+        if (!out->layers[i].counts)
+            continue;
+        float density_scale;
+        out->footprint = place_footprint(g, h, step, choice, &density_scale);
+        out->layers[i].surface.facets_per_m2 *= density_scale;
+    }
+}
+
+void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
+{
+    const scene_material *const m = &s->scene->materials[h->mesh->material];
+    const material_layers *const handles = &s->materials->layers[h->mesh->material];
+    const lookup l = make_lookup(s, h, step);
+    *out = (shade_point){ .occlusion = 1.0F };
+
+    if (m->unlit) {
+        float rgba[4];
+        look_up_base_color(&l, m, rgba);
+        out->opacity = m->alpha_mode == SCENE_ALPHA_BLEND ? rgba[3] : 1.0F;
+        for (int i = 0; i < 3; ++i)
+            out->emission[i] = out->albedo[i] = rgba[i];
+        return;
+    }
+
+    const scene_texels t = look_up_texels(&l, m);
+    float emissive[4], occlusion[4];
+    look_up(&l, &m->emissive_texture, emissive);
+    look_up(&l, &m->occlusion_texture, occlusion);
+    out->opacity = m->alpha_mode == SCENE_ALPHA_BLEND ? fminf(t.base_color[3], 1.0F) : 1.0F;
+    if (m->occlusion_texture.image != SCENE_NONE)
+        out->occlusion = 1.0F + m->occlusion_texture.strength * (occlusion[0] - 1.0F);
+    for (int i = 0; i < 3; ++i) {
+        out->emission[i] = m->emissive[i] * emissive[i];
+        out->albedo[i] = t.base_color[i];
+    }
+
+    shade_layer *const base = &out->layers[out->layer_count++];
+    base->material = handles->base;
+    base->counts = handles->base_counts;
+    base->surface = scene_base_surface(m, &t);
+    base->weight = 1.0F;
+    set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
+    add_coat(&l, m, &t, handles, wo, out);
+    place_glints(h, step, &m->glint, choice, out);
+}
+
+float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
+{
+    const hit_step still = { 0 };
+    hit h;
+    hit_locate(g, at, &h);
+    const lookup l = make_lookup(s, &h, &still);
+    float rgba[4];
+    look_up_base_color(&l, &s->scene->materials[h.mesh->material], rgba);
+    return rgba[3];
+}

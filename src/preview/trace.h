@@ -1,0 +1,41 @@
+/* What a ray hits first, and whether anything stands in its way. */
+#ifndef PREVIEW_TRACE_H
+#define PREVIEW_TRACE_H
+
+#include "preview/geometry.h"
+
+typedef struct trace_scene trace_scene;
+
+typedef struct trace_ray {
+    vec3 origin, direction; /* unit */
+    double near, far;       /* metres along the ray */
+    uint32_t random;        /* decides whether the ray passes a blended surface */
+} trace_ray;
+
+typedef struct trace_hit {
+    int instance;
+    uint32_t triangle;
+    double distance;   /* metres */
+    double weights[2]; /* of the triangle's corners 1 and 2 */
+} trace_hit;
+
+/* Opacity in [0, 1] of a point; asked only for triangles whose material masks or blends. Called by any thread. */
+typedef float (*trace_opacity)(const void *user, const trace_hit *at);
+
+/* How a ray takes surfaces that let light through. */
+typedef enum trace_blending {
+    TRACE_BLEND_SOLID, /* it stops at a blended surface unless that is fully clear there: the caller mixes the layers */
+    TRACE_BLEND_RANDOM /* it stops with the probability of the opacity, by ray.random: one path, right in the mean */
+} trace_blending;
+
+/* The geometry must outlive the result. */
+bool trace_build(const geometry *g, trace_opacity opacity, const void *user, trace_scene **out, report *r);
+void trace_free(trace_scene *t);
+
+/* The closest surface; the back of a single-sided material and what a mask cuts away are not there. */
+bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending blending, trace_hit *hit);
+
+/* Whether anything lies between near and far. A single-sided surface throws its shadow from both sides. */
+bool trace_occluded(const trace_scene *t, const trace_ray *ray);
+
+#endif

@@ -1,0 +1,239 @@
+/* Rays by Embree 3: the only file that includes it. One Embree scene a mesh, one instance a node. */
+#include "preview/trace.h"
+
+#include <embree3/rtcore.h>
+#include <stdlib.h>
+
+#include "preview/hash.h"
+
+/* Embree's builder cuts its work by the number of its threads, and with it the order of coincident triangles. A fixed
+ * number gives the same picture with any number of render threads, on any machine. */
+#define BUILD_CONFIGURATION "threads=4"
+
+typedef struct mesh_geometry {
+    RTCScene scene; /* NULL: no instance needs it */
+    scene_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    bool double_sided;
+} mesh_geometry;
+
+struct trace_scene {
+    RTCDevice device;
+    RTCScene top;
+    mesh_geometry *meshes;
+    const geometry *geometry;
+    trace_opacity opacity;
+    const void *user;
+};
+
+/* The context that Embree hands to the filters, which see this around it. */
+typedef struct query {
+    struct RTCIntersectContext context; /* first: the filters cast */
+    const trace_scene *scene;
+    const trace_ray *ray;
+    trace_blending blending;
+    bool shadow;
+} query;
+
+/* Whether a blended surface stops this ray. The draw belongs to the triangle and the ray, not to the order in which
+ * Embree offers its hits. */
+static bool stops(const query *q, const mesh_geometry *mesh, const trace_hit *at)
+{
+    const float opacity = q->scene->opacity(q->scene->user, at);
+    if (mesh->alpha_mode == SCENE_ALPHA_MASK)
+        return opacity >= mesh->alpha_cutoff;
+    if (q->blending == TRACE_BLEND_SOLID)
+        return opacity > 0.0F;
+    return hash_uniform(hash_combine(hash_combine(q->ray->random, (uint32_t)at->instance), at->triangle)) < opacity;
+}
+
+static bool accepts(const query *q, const mesh_geometry *mesh, const struct RTCRay *ray, const struct RTCHit *hit)
+{
+    /* Both vectors are in the object's space, where counter-clockwise is the front whatever the node's transform. */
+    const float facing = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+    if (!mesh->double_sided && !q->shadow && facing > 0.0F)
+        return false;
+    if (mesh->alpha_mode == SCENE_ALPHA_OPAQUE)
+        return true;
+
+    trace_hit at = { .instance = (int)q->context.instID[0],
+                     .triangle = hit->primID,
+                     .distance = (double)ray->tfar,
+                     .weights = { (double)hit->u, (double)hit->v } };
+    geometry_meet(q->scene->geometry, at.instance, at.triangle, q->ray->origin, q->ray->direction, at.weights,
+                  &at.distance);
+    return stops(q, mesh, &at);
+}
+
+/* We trace one ray at a time, and for N = 1 the arrays of RTCRayN and RTCHitN are RTCRay and RTCHit. */
+static void filter(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const query *const q = (const query *)(const void *)arguments->context;
+    const struct RTCRay *const ray = (const struct RTCRay *)(const void *)arguments->ray;
+    const struct RTCHit *const hit = (const struct RTCHit *)(const void *)arguments->hit;
+    if (arguments->valid[0] == -1 && !accepts(q, arguments->geometryUserPtr, ray, hit))
+        arguments->valid[0] = 0;
+}
+
+/* ---- building ---- */
+
+static bool embree_failed(RTCDevice device, const char *what, report *r)
+{
+    const enum RTCError code = rtcGetDeviceError(device);
+    if (code == RTC_ERROR_NONE)
+        return false;
+    report_error(r, "Embree failed while %s: %s", what,
+                 code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
+                 : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor is not supported"
+                                                     : "internal error");
+    return true;
+}
+
+static bool build_mesh(trace_scene *t, int index, report *r)
+{
+    const scene_mesh *const mesh = &t->geometry->scene->meshes[index];
+    const scene_material *const material = &t->geometry->scene->materials[mesh->material];
+    mesh_geometry *const to = &t->meshes[index];
+    to->alpha_mode = material->alpha_mode;
+    to->alpha_cutoff = material->alpha_cutoff;
+    to->double_sided = material->double_sided;
+
+    RTCGeometry triangles = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    /* A buffer of Embree's own: it reads 16 bytes a vertex, past the end of ours. */
+    float *const vertices = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    3 * sizeof(float), mesh->vertex_count);
+    if (vertices != NULL) {
+        for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; ++i)
+            vertices[i] = mesh->position[i];
+    }
+    rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
+                               3 * sizeof(uint32_t), mesh->triangle_count);
+    rtcSetGeometryUserData(triangles, to);
+    if (to->alpha_mode != SCENE_ALPHA_OPAQUE)
+        rtcSetGeometryOccludedFilterFunction(triangles, filter);
+    if (to->alpha_mode != SCENE_ALPHA_OPAQUE || !to->double_sided)
+        rtcSetGeometryIntersectFilterFunction(triangles, filter);
+    rtcCommitGeometry(triangles);
+
+    to->scene = rtcNewScene(t->device);
+    rtcSetSceneFlags(to->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(to->scene, triangles);
+    rtcReleaseGeometry(triangles);
+    rtcCommitScene(to->scene);
+    return !embree_failed(t->device, mesh->name ? mesh->name : "building a mesh", r);
+}
+
+static bool build_instance(trace_scene *t, int index, report *r)
+{
+    const scene_instance *const instance = &t->geometry->scene->instances[index];
+    const scene_mesh *const mesh = &t->geometry->scene->meshes[instance->mesh];
+    if (!t->geometry->instances[index].visible || mesh->triangle_count == 0)
+        return true;
+    if (t->meshes[instance->mesh].scene == NULL && !build_mesh(t, instance->mesh, r))
+        return false;
+
+    RTCGeometry placed = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(placed, t->meshes[instance->mesh].scene);
+    rtcSetGeometryTimeStepCount(placed, 1);
+    rtcSetGeometryTransform(placed, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, instance->to_world);
+    rtcCommitGeometry(placed);
+    rtcAttachGeometryByID(t->top, placed, (unsigned)index);
+    rtcReleaseGeometry(placed);
+    return !embree_failed(t->device, "placing an instance", r);
+}
+
+bool trace_build(const geometry *g, trace_opacity opacity, const void *user, trace_scene **out, report *r)
+{
+    *out = NULL;
+    trace_scene *const t = calloc(1, sizeof *t);
+    const size_t mesh_count = (size_t)g->scene->mesh_count;
+    mesh_geometry *const meshes = calloc(mesh_count > 0 ? mesh_count : 1U, sizeof *meshes);
+    if (t == NULL || meshes == NULL) {
+        free(t);
+        free(meshes);
+        return report_error(r, "no memory for %zu meshes", mesh_count);
+    }
+    *t = (trace_scene){ .meshes = meshes, .geometry = g, .opacity = opacity, .user = user };
+    t->device = rtcNewDevice(BUILD_CONFIGURATION);
+    bool ok = t->device != NULL || (!embree_failed(NULL, "starting", r) && report_error(r, "Embree does not start"));
+    if (ok) {
+        t->top = rtcNewScene(t->device);
+        rtcSetSceneFlags(t->top, RTC_SCENE_FLAG_ROBUST);
+    }
+    for (int i = 0; ok && i < g->scene->instance_count; ++i)
+        ok = build_instance(t, i, r);
+    if (ok) {
+        rtcCommitScene(t->top);
+        ok = !embree_failed(t->device, "building the scene", r);
+    }
+    if (!ok) {
+        trace_free(t);
+        return false;
+    }
+    *out = t;
+    return true;
+}
+
+void trace_free(trace_scene *t)
+{
+    if (t == NULL)
+        return;
+    if (t->top != NULL)
+        rtcReleaseScene(t->top);
+    for (int i = 0; i < t->geometry->scene->mesh_count; ++i) {
+        if (t->meshes[i].scene != NULL)
+            rtcReleaseScene(t->meshes[i].scene);
+    }
+    if (t->device != NULL)
+        rtcReleaseDevice(t->device);
+    free(t->meshes);
+    free(t);
+}
+
+/* ---- rays ---- */
+
+static struct RTCRay embree_ray(const trace_ray *ray)
+{
+    return (struct RTCRay){ .org_x = (float)ray->origin.x,
+                            .org_y = (float)ray->origin.y,
+                            .org_z = (float)ray->origin.z,
+                            .tnear = (float)ray->near,
+                            .dir_x = (float)ray->direction.x,
+                            .dir_y = (float)ray->direction.y,
+                            .dir_z = (float)ray->direction.z,
+                            .tfar = (float)ray->far,
+                            .mask = UINT32_MAX };
+}
+
+static query make_query(const trace_scene *t, const trace_ray *ray, trace_blending blending, bool shadow)
+{
+    query q = { .scene = t, .ray = ray, .blending = blending, .shadow = shadow };
+    rtcInitIntersectContext(&q.context);
+    return q;
+}
+
+bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending blending, trace_hit *hit)
+{
+    query q = make_query(t, ray, blending, false);
+    struct RTCRayHit found = { .ray = embree_ray(ray) };
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(t->top, &q.context, &found);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+
+    *hit = (trace_hit){ .instance = (int)found.hit.instID[0],
+                        .triangle = found.hit.primID,
+                        .distance = (double)found.ray.tfar,
+                        .weights = { (double)found.hit.u, (double)found.hit.v } };
+    geometry_meet(t->geometry, hit->instance, hit->triangle, ray->origin, ray->direction, hit->weights, &hit->distance);
+    return true;
+}
+
+bool trace_occluded(const trace_scene *t, const trace_ray *ray)
+{
+    query q = make_query(t, ray, TRACE_BLEND_RANDOM, true);
+    struct RTCRay shadow = embree_ray(ray);
+    rtcOccluded1(t->top, &q.context, &shadow);
+    return shadow.tfar < 0.0F;
+}
