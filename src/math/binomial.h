@@ -47,8 +47,10 @@ static inline binomial_chance binomial_chance_of(vfloat p)
  * 1), rounds up or down at random, so that the probability is right in the mean even below 2^-31. */
 static inline vint binomial_threshold(vfloat s, vfloat dither)
 {
-    const vfloat t = max_f(min_f(s, splat(0.99999994F)), splat(0.0F)) * 2147483648.0F + dither;
-    return (vint)((vuint)to_int(min_f(t, splat(2147483520.0F))) << 1 ^ 0x80000000U);
+    const vfloat most = splat(2147483520.0F); /* the largest float below 2^31 */
+    const vfloat t = max_f(s, splat(0.0F)) * 2147483648.0F + dither;
+    const vint scaled = (vint)((vuint)to_int(min_f(t, most)) << 1 ^ 0x80000000U);
+    return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
 }
 
 /* Sum of weight[i] * X_i over twelve draws from b(trials, chance), in three groups of four with one dither each.
@@ -63,10 +65,16 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
     const vfloat p = chance->p;
     const vfloat n = floor_f(trials);
     const vfloat hit = (trials - n) * chance->given;
-    const vfloat b = choose(chance->flip, 1.0F - hit, hit);
+    /* With a fraction of one trial there is nothing to take from the other end, and 1 - hit would round a small chance
+     * off. */
+    const vmask flip = chance->flip & less_equal(splat(1.0F), n);
+    const vfloat b = choose(flip, 1.0F - hit, hit);
     const vfloat mean = n * p + b;
     const vmask wide = less_equal(splat(BINOMIAL_WALK_MEAN), mean);
     vfloat sum = splat(0.0F);
+    vint u[12];
+    for (int i = 0; i < 12; i++)
+        u[i] = uniform[i] ^ flip;
 
     if (any(~wide)) {
         static const float inverse[BINOMIAL_WALK_STEPS + 1] = {
@@ -77,9 +85,9 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
         };
         vfloat em1, mass;
         exp_both(n * chance->log_miss, &em1, &mass);
-        vint least = uniform[0];
+        vint least = u[0];
         for (int i = 1; i < 12; i++)
-            least = min_i(least, uniform[i]);
+            least = min_i(least, u[i]);
         least = choose_i(wide, splat_i(INT32_MAX), least);
 
         vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
@@ -99,7 +107,7 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
             survival = survival - mass;
             for (int g = 0; g < 3; g++)
                 for (int i = 4 * g; i < 4 * g + 4; i++)
-                    group[g] = group[g] + choose(less_i(uniform[i], threshold[g]), weight[i], splat(0.0F));
+                    group[g] = group[g] + choose(less_i(u[i], threshold[g]), weight[i], splat(0.0F));
         }
         sum = group[0] + group[1] + group[2];
     }
@@ -112,7 +120,7 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
         vfloat normal[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
         for (int g = 0; g < 3; g++)
             for (int i = 4 * g; i < 4 * g + 4; i++) {
-                const vfloat z = normal_quantile(to_float(uniform[i]) * 4.656612e-10F);
+                const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
                 const vfloat x = max_f(floor_f(centre - z * (s - c * z)), splat(0.0F));
                 normal[g] = normal[g] + weight[i] * min_f(x, n + 1.0F);
             }
@@ -121,7 +129,7 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
     vfloat total = splat(0.0F);
     for (int i = 0; i < 12; i++)
         total = total + weight[i];
-    return choose(chance->flip, (n + 1.0F) * total - sum, sum);
+    return choose(flip, (n + 1.0F) * total - sum, sum);
 }
 
 #endif

@@ -29,7 +29,8 @@ static inline float fresnel_conductor(float cosine, float eta, float k)
     const float eta2 = eta * eta, k2 = k * k;
     const float t0 = eta2 - k2 - sin2;
     const float a2b2 = sqrtf(t0 * t0 + 4.0F * eta2 * k2);
-    const float a = sqrtf(fmaxf(0.0F, 0.5F * (a2b2 + t0)));
+    /* a^2 = (a2b2 + t0) / 2, without the difference where t0 is negative. */
+    const float a = sqrtf(t0 >= 0.0F ? 0.5F * (a2b2 + t0) : 2.0F * eta2 * k2 / (a2b2 - t0));
     const float s1 = a2b2 + cos2, s2 = 2.0F * a * cosine;
     const float s = (s1 - s2) / (s1 + s2);
     const float p1 = cos2 * a2b2 + sin2 * sin2, p2 = s2 * sin2;
