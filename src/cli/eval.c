@@ -1,5 +1,6 @@
 /* glint eval: a material's radiance factor for queries on standard input, so that other programs can ask libglint. */
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
@@ -61,6 +62,7 @@ static glint_material *open_material(const eval_values *values, report *r)
     char message[256] = "";
     if (glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
         report_error(r, "%s: %s", values->material, message);
+    free(m.name);
     scene_free(&s);
     return material;
 }

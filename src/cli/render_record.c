@@ -37,8 +37,11 @@ static bool write_exr(const render_record *record, const image *picture, report 
     char *materials = join_materials(&v->materials);
     if (!materials)
         return report_error(r, "%s: out of memory", v->output);
-    char size[48], spp[24], seed[24], bounces[24];
+    char size[48], tile[96], spp[24], seed[24], bounces[24];
     snprintf(size, sizeof size, "%" PRId64 "x%" PRId64, v->size[0], v->size[1]);
+    const bool whole = v->tile[2] == 0;
+    snprintf(tile, sizeof tile, "%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64, v->tile[0], v->tile[1],
+             whole ? v->size[0] : v->tile[2], whole ? v->size[1] : v->tile[3]);
     snprintf(spp, sizeof spp, "%" PRId64, v->spp);
     snprintf(seed, sizeof seed, "%" PRId64, v->seed);
     snprintf(bounces, sizeof bounces, "%" PRId64, v->bounces);
@@ -46,6 +49,7 @@ static bool write_exr(const render_record *record, const image *picture, report 
         { "glint:version", glint_version() },
         { "glint:model", arguments_model_choice(v->model) },
         { "glint:size", size },
+        { "glint:tile", tile },
         { "glint:spp", spp },
         { "glint:seed", seed },
         { "glint:bounces", bounces },
