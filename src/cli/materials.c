@@ -83,12 +83,29 @@ static int show_object(const scene_material *m, const search *found)
     return print_document(d);
 }
 
+/* Breaks the text at blanks so that it fits a terminal of 80 columns. */
+static void print_wrapped(const char *text)
+{
+    enum { WIDTH = 76 };
+    while (*text) {
+        size_t length = strlen(text);
+        if (length > WIDTH) {
+            for (length = WIDTH; length > 0 && text[length] != ' '; --length)
+                continue;
+            if (length == 0)
+                length = strcspn(text, " ");
+        }
+        printf("  %.*s\n", (int)length, text);
+        text += length + strspn(text + length, " ");
+    }
+}
+
 static int show_lines(const scene_material *m, const search *found)
 {
     printf("%s%s%s\n", found->name, found->title ? ": " : "", found->title ? found->title : "");
     sheet_show(m, NULL);
     if (found->note)
-        printf("  %s\n", found->note);
+        print_wrapped(found->note);
     return COMMAND_DONE;
 }
 
