@@ -1,0 +1,161 @@
+/* Ray differentials against finite differences of rays that are really traced. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "preview/camera.h"
+#include "scenes.h"
+#include "traced_scene.h"
+
+#define STEP 1e-3 /* pixels */
+
+static const float EYE[3] = { 1.5F, 2.0F, 4.0F };
+static const float TARGET[3] = { 0.1F, 0.05F, 0.2F };
+
+/* Everything below is smooth within a triangle; a central difference over 2e is right to (e^2)/6 of the third
+ * derivative, which for pixels of 1/50 of the scene is 1e-6 * (1/50)^2 of the first one, and to rounding, 1e-16/e. */
+static void assert_derivative(vec3 derivative, vec3 before, vec3 after)
+{
+    const vec3 difference = v3_scale(v3_sub(after, before), 0.5 / STEP);
+    const double bound = 1e-6 * v3_length(difference) + 1e-10;
+    if (!(v3_length(v3_sub(derivative, difference)) <= bound))
+        fail_msg("(%.9g, %.9g, %.9g) is not (%.9g, %.9g, %.9g)", derivative.x, derivative.y, derivative.z, difference.x,
+                 difference.y, difference.z);
+}
+
+static hit hit_at(const traced_scene *t, const camera *c, double x, double y, trace_ray *ray, differential *d)
+{
+    hit h;
+    camera_ray(c, x, y, ray, d);
+    assert_true(traced_hit(t, ray, &h));
+    return h;
+}
+
+static vec3 mirrored(vec3 direction, vec3 normal)
+{
+    return v3_mad(direction, normal, -2.0 * v3_dot(direction, normal));
+}
+
+/* A ray, what it hits, its neighbours at both sides, and the reflections of all of them. */
+static void compare_with_neighbours(const traced_scene *t, const camera *c, double x, double y)
+{
+    trace_ray ray, ray_a, ray_b;
+    differential d, unused;
+    const hit h = hit_at(t, c, x, y, &ray, &d);
+    const hit_step s = hit_differentiate(&h, &d, ray.direction);
+    const surface_step normal = s.normal;
+    const differential reflected = differential_reflect(&d, ray.direction, h.normal, &s.position, &normal);
+    double dx[2], dy[2];
+    hit_texcoord_step(&h, &s, 0, dx, dy);
+
+    for (int axis = 0; axis < 2; ++axis) {
+        const double ex = axis == 0 ? STEP : 0.0, ey = axis == 1 ? STEP : 0.0;
+        const hit a = hit_at(t, c, x - ex, y - ey, &ray_a, &unused);
+        const hit b = hit_at(t, c, x + ex, y + ey, &ray_b, &unused);
+        assert_int_equal(a.corners.index[0], b.corners.index[0]); /* the same triangle */
+        assert_int_equal(a.corners.index[1], b.corners.index[1]);
+        assert_derivative(axis == 0 ? s.position.dx : s.position.dy, a.position, b.position);
+        assert_derivative(axis == 0 ? s.normal.dx : s.normal.dy, a.normal, b.normal);
+        assert_derivative(axis == 0 ? reflected.direction_dx : reflected.direction_dy,
+                          mirrored(ray_a.direction, a.normal), mirrored(ray_b.direction, b.normal));
+        const double *const st = axis == 0 ? dx : dy;
+        assert_derivative(v3(st[0], st[1], 0.0), v3(a.texcoord[0][0], a.texcoord[0][1], 0.0),
+                          v3(b.texcoord[0][0], b.texcoord[0][1], 0.0));
+    }
+}
+
+static void compare_over_the_picture(const scene *s, scene_projection projection, float size)
+{
+    traced_scene t;
+    report r = { 0 };
+    camera c;
+    const scene_camera from = scenes_camera(projection, EYE, TARGET, size);
+    assert_true(camera_make(&from, 64, 64, &c, &r));
+    traced_open(&t, s, NULL);
+    int compared = 0;
+    for (double y = 24.37; y < 42.0; y += 5.0) {
+        for (double x = 24.61; x < 42.0; x += 5.0) {
+            compare_with_neighbours(&t, &c, x, y);
+            ++compared;
+        }
+    }
+    assert_int_equal(compared, 16);
+    traced_close(&t);
+}
+
+static void a_tilted_square_matches_finite_differences(void **state)
+{
+    (void)state;
+    const scene_material matte = scenes_matte(1.0F);
+    scene s = scenes_empty();
+    const float tilted[16] = { 0.8F, 0.6F, 0.0F, 0.0F, -1.2F, 1.6F, 0.0F, 0.0F,
+                               0.3F, 0.0F, 1.1F, 0.0F, 0.1F,  0.0F, 0.2F, 1.0F };
+    scenes_add_instance(&s, scenes_add_square(&s, scenes_add_material(&s, &matte), 2.0F), tilted, 0);
+    compare_over_the_picture(&s, SCENE_PERSPECTIVE, 0.5F);
+    compare_over_the_picture(&s, SCENE_ORTHOGRAPHIC, 1.0F);
+    scene_free(&s);
+}
+
+static void a_curved_mirror_matches_finite_differences(void **state)
+{
+    (void)state;
+    const scene_material matte = scenes_matte(1.0F);
+    scene s = scenes_empty();
+    const float stretched[16] = { 1.3F, 0, 0, 0, 0, 0.9F, 0, 0, 0.2F, 0, 1, 0, 0, 0, 0, 1 };
+    scenes_add_instance(&s, scenes_add_sphere(&s, scenes_add_material(&s, &matte), 1.0F, 24, 12), stretched, 0);
+    compare_over_the_picture(&s, SCENE_PERSPECTIVE, 0.5F);
+    compare_over_the_picture(&s, SCENE_ORTHOGRAPHIC, 1.0F);
+    scene_free(&s);
+}
+
+/* Igehy's first example: a flat mirror leaves the spread of a ray as it is. */
+static void a_flat_mirror_keeps_the_spread(void **state)
+{
+    (void)state;
+    const vec3 direction = v3_normalize(v3(1.0, -2.0, 0.5)), up = v3(0.0, 1.0, 0.0), zero = v3(0.0, 0.0, 0.0);
+    const vec3 across = v3_any_tangent(direction);
+    const differential d = { zero, zero, v3_scale(across, 0.01), v3_scale(v3_cross(direction, across), 0.02) };
+    const surface_step point = differential_transfer(&d, direction, 3.0, up), still = { zero, zero };
+    const differential r = differential_reflect(&d, direction, up, &point, &still);
+    assert_true(fabs(v3_length(r.direction_dx) - 0.01) < 1e-15);
+    assert_true(fabs(v3_length(r.direction_dy) - 0.02) < 1e-15);
+    assert_true(fabs(v3_dot(point.dx, up)) < 1e-15 && fabs(v3_dot(point.dy, up)) < 1e-15);
+}
+
+static void a_plane_seen_edge_on_gives_finite_steps(void **state)
+{
+    (void)state;
+    const vec3 direction = v3(1.0, 0.0, 0.0), up = v3(0.0, 1.0, 0.0), zero = v3(0.0, 0.0, 0.0);
+    const differential d = { zero, zero, v3(0.0, 0.01, 0.0), v3(0.0, 0.0, 0.01) };
+    const surface_step s = differential_transfer(&d, direction, 3.0, up);
+    assert_true(isfinite(v3_length(s.dx)) && isfinite(v3_length(s.dy)));
+}
+
+static void a_drawn_direction_takes_the_spread_that_it_stands_for(void **state)
+{
+    (void)state;
+    const vec3 direction = v3_normalize(v3(1.0, -2.0, 0.5)), zero = v3(0.0, 0.0, 0.0);
+    differential d = { zero, zero, v3_scale(v3_any_tangent(direction), 1e-3),
+                       v3_scale(v3_cross(direction, v3_any_tangent(direction)), 1e-3) };
+    const differential before = d;
+    differential_widen(&d, direction, 0.5e-6); /* narrower than what is there, 1e-6 sr */
+    assert_memory_equal(&d, &before, sizeof d);
+    differential_widen(&d, direction, 0.04);
+    assert_true(fabs(v3_length(v3_cross(d.direction_dx, d.direction_dy)) - 0.04) < 1e-12);
+    assert_true(fabs(v3_dot(d.direction_dx, direction)) < 1e-12 && fabs(v3_dot(d.direction_dy, direction)) < 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tilted_square_matches_finite_differences),
+        cmocka_unit_test(a_curved_mirror_matches_finite_differences),
+        cmocka_unit_test(a_flat_mirror_keeps_the_spread),
+        cmocka_unit_test(a_plane_seen_edge_on_gives_finite_steps),
+        cmocka_unit_test(a_drawn_direction_takes_the_spread_that_it_stands_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
