@@ -108,8 +108,9 @@ static inline void grid_triangle(const grid_shape *s, grid_vertex vertex[3], vfl
     vertex[0] = (grid_vertex){ a_direction, s->ratio, s->level };
     vertex[1] = (grid_vertex){ b_direction, b_ratio, s->level };
     vertex[2] = (grid_vertex){ 2.0F * left + 1.0F, s->ratio + 1, s->level };
-    weight[0] = a;
-    weight[1] = b;
+    /* Rounding may leave a hair below zero. */
+    weight[0] = max_f(a, splat(0.0F));
+    weight[1] = max_f(b, splat(0.0F));
     weight[2] = c;
 }
 
@@ -136,7 +137,7 @@ static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID
     for (int i = 0; i < 3; i++)
         raised[i].level = raised[i].level + 1;
     vertex[0] = t[0];
-    share[0] = w[0] - a_up;
+    share[0] = max_f(w[0] - a_up, splat(0.0F));
     vertex[1] = grid_select(last, raised[1], t[1]);
     share[1] = choose(last, w[1], w[1] - b_up);
     vertex[2] = grid_select(first, t[2], grid_select(last, raised[0], raised[1]));
@@ -165,9 +166,18 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     const vfloat along = exp2_i(-g->level - g->ratio), across = exp2_i(-g->level);
     /* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the
      * same four numbers, so their rounding does not matter; the position itself is kept in double. */
+    const vuint grid =
+        hash_full(seed + (vuint)to_int(g->direction) * HASH_X + (vuint)g->ratio * HASH_Y + (vuint)g->level * HASH_Z);
+    /* Each grid starts somewhere else: else all would have a vertex at the origin, and the blend would be sharper
+     * there. */
+    const vfloat start_x = to_float((vint)(grid & 0xffffU)) * (1.0F / 65536.0F);
+    const vfloat start_y = to_float((vint)(grid >> 16)) * (1.0F / 65536.0F);
+    /* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the
+     * same four numbers, so their rounding does not matter; the position itself is kept in double. */
     const vfloat skew = across * 0.577350269F, tall = across * 1.15470054F;
-    const vdouble sx = u * widen(cosine * along + sine * skew) + v * widen(sine * along - cosine * skew);
-    const vdouble sy = v * widen(cosine * tall) - u * widen(sine * tall);
+    const vdouble sx =
+        u * widen(cosine * along + sine * skew) + v * widen(sine * along - cosine * skew) + widen(start_x);
+    const vdouble sy = v * widen(cosine * tall) - u * widen(sine * tall) + widen(start_y);
     vuint x, y;
     const vfloat fx = narrow(sx - grid_floor(sx, &x)), fy = narrow(sy - grid_floor(sy, &y));
     const vfloat sum = fx + fy;
@@ -176,8 +186,6 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     weight[1] = choose(upper, 1.0F - fy, fx);
     weight[2] = choose(upper, 1.0F - fx, fy);
 
-    const vuint grid =
-        hash_full(seed + (vuint)to_int(g->direction) * HASH_X + (vuint)g->ratio * HASH_Y + (vuint)g->level * HASH_Z);
     const vuint origin = x * HASH_Z + y * HASH_Y + grid;
     cell[0] = hash_full(origin + ((vuint)upper & (HASH_Z + HASH_Y)));
     cell[1] = hash_full(origin + HASH_Z);

@@ -1,0 +1,150 @@
+/* The counting kernel: the same bits at every vector width, and the variance that its blending leaves. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "model/counting_kernel.h"
+#include "statistics.h"
+
+enum { COUNT = 4096 };
+
+typedef struct arrays {
+    double u[COUNT], v[COUNT];
+    float dudx[COUNT], dudy[COUNT], dvdx[COUNT], dvdy[COUNT], density[COUNT], hx[COUNT], hy[COUNT], cap[COUNT],
+        p[COUNT];
+    uint32_t seed[COUNT];
+} arrays;
+
+static arrays a;
+static const counting_points points = { a.u,       a.v,    a.dudx, a.dudy, a.dvdx, a.dvdy,
+                                        a.density, a.seed, a.hx,   a.hy,   a.cap,  a.p };
+
+/* Log-uniform over everything that an ordinary scene and a hostile one may ask. */
+static void fill(uint64_t *random)
+{
+    for (int i = 0; i < COUNT; i++) {
+        const double size = random_log_between(random, 1e-7, 10.0), turn = random_between(random, 0.0, 6.3);
+        const double minor = size / random_log_between(random, 1.0, 1e4);
+        /* Up to 10^12 cells from the origin: of a double's 52 bits, 12 are left for the place within the cell. */
+        const double far = minor * random_log_between(random, 1e-3, 1e12);
+        a.u[i] = random_between(random, -far, far);
+        a.v[i] = random_between(random, -far, far);
+        a.dudx[i] = (float)(size * cos(turn));
+        a.dvdx[i] = (float)(size * sin(turn));
+        a.dudy[i] = (float)(-minor * sin(turn));
+        a.dvdy[i] = (float)(minor * cos(turn));
+        if (random_bits(random) % 50 == 0)
+            a.dudy[i] = a.dvdy[i] = 0.0F;
+        const double n = random_log_between(random, 1e-6, 1e12);
+        a.density[i] = (float)(n / (size * minor));
+        a.hx[i] = (float)random_between(random, -0.7, 0.7);
+        a.hy[i] = (float)random_between(random, -0.7, 0.7);
+        a.cap[i] = (float)random_log_between(random, 1e-10, 3.0);
+        a.p[i] = (float)random_log_between(random, 1e-12, 1.0);
+        if (random_bits(random) % 20 == 0)
+            a.p[i] = 1.0F - a.p[i];
+        a.seed[i] = (uint32_t)random_bits(random);
+    }
+}
+
+static void every_width_gives_the_same_bits(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    static float reference[COUNT], facets[COUNT], factor[COUNT], other[COUNT];
+    for (int round = 0; round < 30; round++) {
+        fill(&random);
+        counting_kernel_1(&points, COUNT, reference, facets);
+        for (size_t lanes = 4; lanes <= 16; lanes *= 2) {
+            const counting_width width = counting_widest(lanes);
+            if (round == 0)
+                printf("%zu lanes asked, %zu found\n", lanes, width.lanes);
+            width.kernel(&points, COUNT, factor, other);
+            assert_memory_equal(factor, reference, sizeof(factor));
+            assert_memory_equal(other, facets, sizeof(other));
+        }
+        for (int i = 0; i < COUNT; i++)
+            assert_true(isfinite(reference[i]) && reference[i] >= 0.0F && isfinite(facets[i]) && facets[i] >= 0.0F);
+    }
+}
+
+/* E factor = 1 and Var = 1/2 (1 - p) / (N p): 9/4 from the facets that are drawn, 1/2 * 4/9 from the blending
+ * (sum of squares of barycentric and bilinear weights, in the mean over the cell). */
+static void mean_is_one_and_variance_follows_from_the_blending(void **state)
+{
+    (void)state;
+    static const double n[] = { 1.0, 30.0, 1e3, 1e6 }, p[] = { 1e-4, 1e-2, 0.4 };
+    static float factor[COUNT], facets[COUNT];
+    uint64_t random = 12;
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 3; j++) {
+            moments m = { 0 };
+            for (int round = 0; round < 100; round++) {
+                fill(&random);
+                for (int i = 0; i < COUNT; i++) {
+                    if (!(a.dudy[i] != 0.0F || a.dvdy[i] != 0.0F))
+                        a.dvdy[i] = a.dudx[i];
+                    a.p[i] = (float)p[j];
+                }
+                /* Set the density so that N is exactly n: measure the area first. */
+                for (int i = 0; i < COUNT; i++)
+                    a.density[i] = 1.0F;
+                counting_kernel_1(&points, COUNT, factor, facets);
+                for (int i = 0; i < COUNT; i++)
+                    a.density[i] = facets[i] > 0.0F ? (float)n[k] / facets[i] : 0.0F;
+                counting_kernel_1(&points, COUNT, factor, facets);
+                for (int i = 0; i < COUNT; i++)
+                    if (facets[i] > 0.0F)
+                        moments_add(&m, (double)factor[i]);
+            }
+            const double variance = 0.5 * (1.0 - p[j]) / (n[k] * p[j]);
+            const double sigmas = (m.mean - 1.0) / moments_standard_error(&m);
+            printf("N %g p %g: mean %.5f (%.1f sigma), variance over (1-p)/2Np %.4f\n", n[k], p[j], m.mean, sigmas,
+                   moments_variance(&m) / variance);
+            assert_true(fabs(sigmas) < 4.5); /* 12 tests, significance 1e-4 */
+            /* A draw from a fraction f of a facet has f p (1 - f p) instead of f p (1 - p), at most p^2 / 4 more, in
+             * each of four draws that share 4/9 N. The rest is noise: the kurtosis of a count is about 1 / N p. */
+            const double fraction = p[j] / (n[k] * 4.0 / 9.0 * (1.0 - p[j]));
+            const double noise = 4.0 * sqrt((2.0 + 9.0 / (n[k] * p[j])) / m.count);
+            assert_true(fabs(moments_variance(&m) / variance - 1.0) < 0.01 + fraction + noise);
+        }
+}
+
+/* The blend must be as wide at the origin as elsewhere: grids that all had a vertex there would double the variance. */
+static void origin_is_a_place_like_any_other(void **state)
+{
+    (void)state;
+    static float factor[COUNT], facets[COUNT];
+    uint64_t random = 13;
+    moments m = { 0 };
+    for (int round = 0; round < 50; round++) {
+        fill(&random);
+        for (int i = 0; i < COUNT; i++) {
+            a.u[i] = a.v[i] = 0.0;
+            a.dudx[i] = a.dvdy[i] = (float)random_log_between(&random, 1e-5, 1e-1);
+            a.dudy[i] = a.dvdx[i] = 0.0F;
+            a.density[i] = 1000.0F / (a.dudx[i] * a.dudx[i]);
+            a.p[i] = 0.01F;
+        }
+        counting_kernel_1(&points, COUNT, factor, facets);
+        for (int i = 0; i < COUNT; i++)
+            moments_add(&m, (double)factor[i]);
+    }
+    /* 2e5 samples, kurtosis 3.1: 3 sigma of the variance is 1 % */
+    assert_true(fabs(moments_variance(&m) / (0.5 * 0.99 / 10.0) - 1.0) < 0.01 + 0.01);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_width_gives_the_same_bits),
+        cmocka_unit_test(mean_is_one_and_variance_follows_from_the_blending),
+        cmocka_unit_test(origin_is_a_place_like_any_other),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
