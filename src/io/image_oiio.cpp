@@ -134,6 +134,8 @@ bool write_exr(const char *path, const image *i, const image_text *metadata, siz
     OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
     for (int c = 0; c < i->channel_count; c++)
         spec.channelnames[static_cast<size_t>(c)] = i->channel_names[c];
+    /* Empty unless the metadata ask for one: OpenImageIO would stamp the time, and the same picture differ by it. */
+    spec.attribute("DateTime", "");
     for (size_t m = 0; m < metadata_count; m++)
         spec.attribute(metadata[m].key, metadata[m].value);
     spec.attribute("compression", "zip");
