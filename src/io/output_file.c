@@ -73,6 +73,9 @@ static int create_temporary(output_file *f)
 /* Something there that rename would destroy or refuse, found before the work and not after it. */
 static bool may_replace(const char *path, mode_t *mode, report *r)
 {
+    const size_t length = strlen(path);
+    if (length == 0 || path[length - 1] == '/')
+        return report_error(r, "%s: cannot be written: expected the name of a file", path);
     struct stat existing;
     if (stat(path, &existing) != 0) {
         if (errno == ENOENT)
