@@ -104,6 +104,7 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
         }
         if (depth > w->bounces)
             return;
+        shade_widen(&v.point, differential_half_vector_variance(&v.step, &v.hit_step.normal));
         add_light(sum, throughput, v.point.emission);
         add_direct_light(w, &v.hit, &v.point, random, dimension(depth, DIM_LIGHTS), throughput, sum, NULL, counts);
     }

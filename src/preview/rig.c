@@ -14,11 +14,11 @@ typedef struct rig_light {
     float angular_diameter;
 } rig_light;
 
-/* Taste, all of it: three-point lighting. The key has the size of the sun, so that glints are as sharp as outdoors. */
+/* Taste, all of it: three-point lighting. The key is small, nearly as small as the sun, so that flakes flash. */
 static const rig_light RIG[RIG_LIGHT_COUNT] = {
-    { "key", -0.75, 0.80, { 1.0F, 0.97F, 0.92F }, 3.2F, 0.00929F },
-    { "fill", 1.10, 0.35, { 0.86F, 0.92F, 1.0F }, 0.7F, 0.20F },
-    { "rim", 2.60, 0.55, { 1.0F, 1.0F, 1.0F }, 1.8F, 0.03F },
+    { "key", -0.75, 0.80, { 1.0F, 0.97F, 0.92F }, 3.2F, 0.015F },
+    { "fill", 1.10, 0.35, { 0.86F, 0.92F, 1.0F }, 0.7F, 0.12F },
+    { "rim", 2.60, 0.55, { 1.0F, 1.0F, 1.0F }, 1.8F, 0.02F },
 };
 
 void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])

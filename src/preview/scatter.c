@@ -1,4 +1,5 @@
-/* How the layers of a prepared point scatter light: evaluation and sampling of their sum. */
+/* How the layers of a prepared point scatter light: evaluation and sampling of their sum, and what a cone sees of them.
+ */
 #include "preview/shade.h"
 
 static void to_local(const shade_layer *layer, vec3 world, float local[3])
@@ -12,6 +13,21 @@ static vec3 to_world(const shade_layer *layer, const float local[3])
 {
     const vec3 in_plane = v3_mad(v3_scale(layer->x, (double)local[0]), layer->y, (double)local[1]);
     return v3_normalize(v3_mad(in_plane, layer->z, (double)local[2]));
+}
+
+/* A slope distribution of roughness alpha has the variance alpha^2 / 2 per axis; variances add. */
+static float widened(float alpha, double slope_variance)
+{
+    return (float)fmin(sqrt((double)alpha * (double)alpha + 2.0 * slope_variance), 1.0);
+}
+
+void shade_widen(shade_point *p, double slope_variance)
+{
+    for (int i = 0; i < p->layer_count; ++i) {
+        glint_surface *const s = &p->layers[i].surface;
+        s->alpha_x = widened(s->alpha_x, slope_variance);
+        s->alpha_y = widened(s->alpha_y, slope_variance);
+    }
 }
 
 bool shade_faces(const shade_point *p, vec3 wi)

@@ -34,6 +34,11 @@ typedef struct shader {
 /* wo: world, unit, to the viewer. choice: uniform in [0, 1), see place_footprint. */
 void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out);
 
+/* Makes every layer as rough as it looks to a ray that stands for a whole cone: what a wide bounce sees of a highlight
+ * is its mean, and no spark. slope_variance: of the half vector over the cone. With more samples the cones shrink, and
+ * the picture tends to that of the true roughness. Tokuyoshi and Kaplanyan 2019, Eq. 5. */
+void shade_widen(shade_point *p, double slope_variance);
+
 /* Sum of the layers' f |cos theta_i| for light from wi (world, unit); facet_count and lit_probability are those of the
  * layer that counts. f = f_base (1 - c F) + c f_coat, F the Schlick term of the coat and c its weight
  * (KHR_materials_clearcoat). */
