@@ -1,0 +1,198 @@
+// What hangs on the nodes of the scene: instances of meshes, cameras and lights.
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf_accessor.hpp"
+#include "io/gltf_graph.hpp"
+#include "io/scene_memory.hpp"
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double sun_diameter_rad = 0.00929; // of the sun seen from the earth
+constexpr double bulb_radius_m = 0.01;       // our choice: a small lamp
+
+struct node_reader {
+    gltf_file &file;
+    const gltf_graph &graph;
+    const std::vector<gltf_mesh_range> &meshes;
+    scene *s;
+};
+
+std::string name_of(const std::string &first, const std::string &second, const char *kind, int number)
+{
+    return !first.empty() ? first : !second.empty() ? second : std::string(kind) + " " + std::to_string(number);
+}
+
+// ---- meshes ----
+
+void append_instances(node_reader &r, size_t number, gltf_mesh_range range, const matrix4 &to_world,
+                      const std::string &pointer)
+{
+    if (determinant(to_world) == 0.0) {
+        r.file.warn(pointer, "is scaled to nothing; its mesh is left out");
+        return;
+    }
+    for (int i = 0; i < range.count; i++) {
+        if (r.file.elements_left == 0)
+            throw file_error(pointer, "found more instances than the bytes of the file account for");
+        r.file.elements_left--;
+        scene_instance *instance = scene_append(&r.s->instances, &r.s->instance_count);
+        instance->name = scene_string(r.file.model.nodes[number].name);
+        instance->mesh = range.first + i;
+        instance->node = static_cast<int>(number);
+        store(to_world, pointer, instance->to_world);
+    }
+}
+
+// EXT_mesh_gpu_instancing: one attribute of all instances, or defaults.
+std::vector<float> instance_attribute(gltf_file &file, const tinygltf::Value &attributes, const char *name,
+                                      int components, const std::string &pointer, size_t &count)
+{
+    const int accessor = gltf_integer(attributes, name, -1);
+    if (accessor < 0)
+        return {};
+    const unsigned allowed = components == 4 ? GLTF_FLOAT | GLTF_BYTE_NORMALIZED | GLTF_SHORT_NORMALIZED : GLTF_FLOAT;
+    gltf_check_accessor(file, accessor, components, components, allowed, std::string("the instance attribute ") + name);
+    std::vector<float> values = gltf_read_floats(file, accessor);
+    const size_t found = values.size() / static_cast<size_t>(components);
+    if (count != 0 && found != count)
+        throw file_error(json_pointer(pointer + "/attributes", name),
+                         "found " + std::to_string(found) + " instances, expected the " + std::to_string(count) +
+                             " of the other attributes");
+    count = found;
+    return values;
+}
+
+void append_gpu_instances(node_reader &r, size_t number, gltf_mesh_range range, const tinygltf::Value &extension,
+                          const std::string &pointer)
+{
+    const std::string here = pointer + "/extensions/EXT_mesh_gpu_instancing";
+    const tinygltf::Value *attributes = gltf_member(extension, "attributes");
+    size_t count = 0;
+    if (!attributes)
+        return;
+    const std::vector<float> translations = instance_attribute(r.file, *attributes, "TRANSLATION", 3, here, count),
+                             rotations = instance_attribute(r.file, *attributes, "ROTATION", 4, here, count),
+                             scales = instance_attribute(r.file, *attributes, "SCALE", 3, here, count);
+    for (size_t i = 0; i < count; i++) {
+        double translation[3] = { 0, 0, 0 }, rotation[4] = { 0, 0, 0, 1 }, scale[3] = { 1, 1, 1 };
+        if (!translations.empty())
+            std::copy_n(&translations[3 * i], 3, translation);
+        if (!rotations.empty())
+            std::copy_n(&rotations[4 * i], 4, rotation);
+        if (!scales.empty())
+            std::copy_n(&scales[3 * i], 3, scale);
+        if (rotation[0] == 0.0 && rotation[1] == 0.0 && rotation[2] == 0.0 && rotation[3] == 0.0)
+            throw file_error(here + "/attributes/ROTATION",
+                             "found a quaternion of length 0 in instance " + std::to_string(i));
+        append_instances(r, number, range, multiply(r.graph.to_world[number], compose(translation, rotation, scale)),
+                         pointer);
+    }
+}
+
+// In its bind pose every joint moves a skinned mesh alike: by the joint's place times its inverse bind matrix. The
+// node's own transform does not count (glTF 2.0 section 3.7.3.3).
+matrix4 skinned_transform(node_reader &r, int skin_number, const std::string &pointer)
+{
+    const tinygltf::Skin &skin = r.file.model.skins[static_cast<size_t>(skin_number)];
+    r.file.warn(pointer, "skins stand still, in their bind pose");
+    const matrix4 &joint = r.graph.to_world[static_cast<size_t>(skin.joints[0])];
+    if (skin.inverseBindMatrices < 0)
+        return joint;
+    gltf_check_accessor(r.file, skin.inverseBindMatrices, 16, 16, GLTF_FLOAT, "inverse bind matrices");
+    const std::vector<float> matrices = gltf_read_floats(r.file, skin.inverseBindMatrices);
+    matrix4 inverse_bind;
+    std::copy_n(matrices.begin(), 16, inverse_bind.begin());
+    return multiply(joint, inverse_bind);
+}
+
+void read_mesh(node_reader &r, size_t number, const std::string &pointer)
+{
+    const tinygltf::Node &node = r.file.model.nodes[number];
+    const gltf_mesh_range range = r.meshes[static_cast<size_t>(node.mesh)];
+    if (!node.weights.empty() && node.weights != r.file.model.meshes[static_cast<size_t>(node.mesh)].weights)
+        r.file.warn(pointer + "/weights", "are left out; morph targets have the weights of the mesh");
+    if (const tinygltf::Value *instancing = gltf_extension(node.extensions, "EXT_mesh_gpu_instancing"))
+        append_gpu_instances(r, number, range, *instancing, pointer);
+    else if (node.skin >= 0)
+        append_instances(r, number, range, skinned_transform(r, node.skin, pointer), pointer);
+    else
+        append_instances(r, number, range, r.graph.to_world[number], pointer);
+}
+
+// ---- cameras ----
+
+void read_camera(node_reader &r, size_t number, const std::string &pointer)
+{
+    const tinygltf::Node &node = r.file.model.nodes[number];
+    const tinygltf::Camera &camera = r.file.model.cameras[static_cast<size_t>(node.camera)];
+    const bool perspective = camera.type == "perspective";
+    scene_camera *out = scene_append(&r.s->cameras, &r.s->camera_count);
+    out->name = scene_string(name_of(node.name, camera.name, "camera", r.s->camera_count - 1));
+    out->projection = perspective ? SCENE_PERSPECTIVE : SCENE_ORTHOGRAPHIC;
+    out->yfov_rad = static_cast<float>(camera.perspective.yfov);
+    out->aspect = static_cast<float>(camera.perspective.aspectRatio);
+    out->xmag = static_cast<float>(std::abs(camera.orthographic.xmag));
+    out->ymag = static_cast<float>(std::abs(camera.orthographic.ymag));
+    out->znear = static_cast<float>(perspective ? camera.perspective.znear : camera.orthographic.znear);
+    out->zfar = static_cast<float>(perspective ? camera.perspective.zfar : camera.orthographic.zfar);
+    store(r.graph.to_world[number], pointer, out->to_world);
+}
+
+// ---- lights ----
+
+// A number in the extras of a light, which no schema has seen.
+float extra(const tinygltf::Light &light, const char *name, double otherwise, double high, const std::string &pointer)
+{
+    const tinygltf::Value *value = gltf_member(light.extras, name);
+    if (!value)
+        return static_cast<float>(otherwise);
+    const double number = value->IsNumber() ? value->GetNumberAsDouble() : -1.0;
+    if (!(number >= 0.0 && number <= high))
+        throw file_error(pointer + "/extras/" + name,
+                         "found " + (value->IsNumber() ? json(number).dump() : std::string("no number")) +
+                             ", expected one from 0 to " + json(high).dump());
+    return static_cast<float>(number);
+}
+
+void read_light(node_reader &r, size_t number, size_t light_number, const std::string &pointer)
+{
+    const tinygltf::Light &light = r.file.model.lights[light_number];
+    const std::string light_pointer = json_pointer("/extensions/KHR_lights_punctual/lights", light_number);
+    scene_light *out = scene_append(&r.s->lights, &r.s->light_count);
+    out->name = scene_string(name_of(r.file.model.nodes[number].name, light.name, "light", r.s->light_count - 1));
+    out->kind = light.type == "directional" ? SCENE_LIGHT_DIRECTIONAL
+                : light.type == "spot"      ? SCENE_LIGHT_SPOT
+                                            : SCENE_LIGHT_POINT;
+    for (size_t k = 0; k < 3; k++)
+        out->color[k] = light.color.size() == 3 ? static_cast<float>(light.color[k]) : 1.0F;
+    out->intensity = static_cast<float>(light.intensity);
+    out->range = static_cast<float>(light.range);
+    out->inner_cone_rad = static_cast<float>(light.spot.innerConeAngle);
+    out->outer_cone_rad = static_cast<float>(light.spot.outerConeAngle);
+    if (out->kind == SCENE_LIGHT_DIRECTIONAL)
+        out->angular_diameter_rad = extra(light, "angularDiameter", sun_diameter_rad, pi, light_pointer);
+    else
+        out->radius_m = extra(light, "radius", bulb_radius_m, 1e6, light_pointer);
+    store(r.graph.to_world[number], pointer, out->to_world);
+}
+
+} // namespace
+
+void gltf_read_nodes(gltf_file &file, const std::vector<gltf_mesh_range> &meshes, scene *s)
+{
+    const gltf_graph graph = gltf_read_graph(file);
+    node_reader r = { file, graph, meshes, s };
+    for (const size_t number : graph.visible) {
+        const tinygltf::Node &node = file.model.nodes[number];
+        const std::string pointer = json_pointer("/nodes", number);
+        if (node.mesh >= 0)
+            read_mesh(r, number, pointer);
+        if (node.camera >= 0)
+            read_camera(r, number, pointer);
+        if (const tinygltf::Value *light = gltf_extension(node.extensions, "KHR_lights_punctual"))
+            read_light(r, number, static_cast<size_t>(gltf_integer(*light, "light", 0)), pointer);
+    }
+}
