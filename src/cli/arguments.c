@@ -79,8 +79,11 @@ static void print_option(FILE *out, const char *name, char letter, const argumen
         letter ? (size_t)fprintf(out, "  -%c, --%s", letter, name) : (size_t)fprintf(out, "      --%s", name);
     if (rule)
         print_value_hint(out, rule, &width);
-    const int gap = width + 2 <= HELP_COLUMN ? HELP_COLUMN - (int)width : 2;
-    fprintf(out, "%*s%s\n", gap, "", help);
+    if (width + 2 > HELP_COLUMN) {
+        putc('\n', out);
+        width = 0;
+    }
+    fprintf(out, "%*s%s\n", HELP_COLUMN - (int)width, "", help);
 }
 
 static void print_help(const argument_syntax *syntax)

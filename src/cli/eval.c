@@ -1,6 +1,8 @@
 /* glint eval: a material's radiance factor for queries on standard input, so that other programs can ask libglint. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
@@ -67,11 +69,11 @@ static glint_material *open_material(const eval_values *values, report *r)
     return material;
 }
 
-static void write_text(const glint_material *material, const eval_query *q)
+static bool write_text(const glint_material *material, const eval_query *q)
 {
     float rgb[3];
     glint_eval(material, NULL, &q->footprint, q->wo, q->wi, &q->light, rgb);
-    printf("%.9g %.9g %.9g\n", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+    return printf("%.9g %.9g %.9g\n", (double)rgb[0], (double)rgb[1], (double)rgb[2]) > 0;
 }
 
 static bool write_object(const glint_material *material, const eval_query *q, bool first)
@@ -87,32 +89,37 @@ static bool write_object(const glint_material *material, const eval_query *q, bo
     return document_print(d, stdout);
 }
 
-static int answer(const glint_material *material, bool json, messages *m)
+/* Answers up to the end of the input or to the first query that cannot be answered. */
+static bool answer(const glint_material *material, bool json, report *r)
 {
     size_t line_number = 0;
-    eval_query query;
-    eval_query_result result = EVAL_QUERY_READ;
+    for (bool first = true;; first = false) {
+        eval_query query;
+        const eval_query_result result = eval_query_read(stdin, &line_number, &query, r);
+        if (result != EVAL_QUERY_READ)
+            return result == EVAL_QUERY_END;
+        const bool written = json ? write_object(material, &query, first) : write_text(material, &query);
+        if (ferror(stdout))
+            return report_error(r, "standard output: %s", strerror(errno));
+        if (!written)
+            return report_error(r, "standard input: line %zu: out of memory for the answer", line_number);
+    }
+}
+
+static int answer_all(const glint_material *material, bool json, report *r)
+{
     /* A program that asks through a pipe waits for each answer before it asks again. */
     setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
     if (json)
         putchar('[');
-    for (bool first = true; !ferror(stdout); first = false) {
-        result = eval_query_read(stdin, &line_number, &query, &m->report);
-        if (result != EVAL_QUERY_READ)
-            break;
-        if (!json) {
-            write_text(material, &query);
-        } else if (!write_object(material, &query, first) && !ferror(stdout)) {
-            report_error(&m->report, "standard input: line %zu: out of memory for the answer", line_number);
-            result = EVAL_QUERY_WRONG;
-            break;
-        }
-    }
-    if (json)
-        fputs("]\n", stdout);
-    if (result != EVAL_QUERY_WRONG)
+    const bool done = answer(material, json, r);
+    if (ferror(stdout))
+        clearerr(stdout); /* the report has it */
+    else if (json)
+        fputs("\n]\n", stdout);
+    if (done)
         return COMMAND_DONE;
-    fprintf(stderr, "glint: %s\n", m->report.error);
+    fprintf(stderr, "glint: %s\n", r->error);
     return COMMAND_BAD_INPUT;
 }
 
@@ -134,7 +141,7 @@ int command_eval(int argc, char **argv)
     glint_material *material = open_material(&values, &m.report);
     if (!material)
         return messages_fail(&m);
-    const int code = answer(material, values.json, &m);
+    const int code = answer_all(material, values.json, &m.report);
     glint_material_destroy(material);
     messages_end(&m);
     return code;

@@ -18,7 +18,7 @@
 static const argument_rule rules[] = {
     { .name = "output",
       .letter = 'o',
-      .value = "OUT.exr|OUT.png",
+      .value = "OUT.exr|.png",
       .help = "the picture to write; required",
       .kind = ARGUMENT_TEXT,
       .target = AT(output) },

@@ -283,8 +283,8 @@ static void input_that_is_no_text_is_refused(void **state)
 {
     (void)state;
     static const char zeros[] = "0 0 0\0 0";
-    outcome o =
-        glint_run(&(run_setup){ .input = zeros, .input_size = sizeof zeros - 1 }, "eval", "--material", "metal.json");
+    const run_setup setup = { .input = zeros, .input_size = sizeof zeros - 1 };
+    outcome o = glint_run(&setup, "eval", "--material", "metal.json");
     assert_refused(o, 1, "line 1: found a zero byte");
     char *endless = malloc(1000001);
     assert_non_null(endless);
