@@ -1,0 +1,137 @@
+/* Size and place of lights: solid angles, soft edges, and what happens inside a light. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "preview/light.h"
+#include "preview/rig.h"
+#include "scenes.h"
+
+static light make(scene_light_kind kind, const float from[3], double size)
+{
+    scene s = scenes_empty();
+    scene_light *const l = scenes_add_light(&s, kind, from, 1.0F);
+    l->angular_diameter_rad = l->radius_m = (float)size;
+    const light made = light_make(l);
+    scene_free(&s);
+    return made;
+}
+
+static void assert_close(double value, double expected, double bound)
+{
+    if (!(fabs(value - expected) <= bound * fabs(expected)))
+        fail_msg("%.9g is not %.9g within %g", value, expected, bound);
+}
+
+static const float ABOVE[3] = { 0.0F, 2.0F, 0.0F };
+
+static void the_sun_covers_the_cap_of_its_diameter(void **state)
+{
+    (void)state;
+    light_view v;
+    const light sun = make(SCENE_LIGHT_DIRECTIONAL, ABOVE, 0.00929);
+    assert_true(light_see(&sun, v3(0.0, 0.0, 0.0), &v));
+    assert_close((double)v.solid_angle_sr, 6.778e-5, 1e-4); /* pi/4 * 0.00929^2: the cap is flat to 1e-6 */
+    const light half_sky = make(SCENE_LIGHT_DIRECTIONAL, ABOVE, 0.5);
+    assert_true(light_see(&half_sky, v3(0.0, 0.0, 0.0), &v));
+    assert_close((double)v.solid_angle_sr, 2.0 * PREVIEW_PI * (1.0 - cos(0.25)), 1e-6);
+}
+
+/* A sphere of radius r at the distance d hides a cap with sin = r / d: 2 pi (1 - sqrt(1 - r^2 / d^2)). */
+static void a_point_light_covers_the_cap_of_its_sphere(void **state)
+{
+    (void)state;
+    light_view v;
+    const light bulb = make(SCENE_LIGHT_POINT, ABOVE, 0.3);
+    assert_true(light_see(&bulb, v3(0.0, 1.0, 0.0), &v));
+    assert_close((double)v.solid_angle_sr, 2.0 * PREVIEW_PI * (1.0 - sqrt(1.0 - 0.09)), 1e-6);
+    assert_close((double)v.irradiance[0], 1.0, 1e-6);
+}
+
+static void inside_a_light_its_cap_stays_below_a_hemisphere(void **state)
+{
+    (void)state;
+    light_view v;
+    const light bulb = make(SCENE_LIGHT_POINT, ABOVE, 0.3);
+    assert_true(light_see(&bulb, v3(0.0, 1.9, 0.0), &v));
+    assert_true(v.solid_angle_sr < (float)(2.0 * PREVIEW_PI));
+    assert_true(v.solid_angle_sr > 6.28F);
+    assert_true(light_see(&bulb, v3(0.0, 1.7, 0.0), &v)); /* on its surface */
+    assert_true(v.solid_angle_sr < (float)(2.0 * PREVIEW_PI));
+    assert_false(light_see(&bulb, v3(0.0, 2.0, 0.0), &v)); /* in its centre there is no direction */
+}
+
+static void a_light_without_size_still_has_a_solid_angle(void **state)
+{
+    (void)state;
+    light_view v;
+    const light star = make(SCENE_LIGHT_DIRECTIONAL, ABOVE, 0.0), spark = make(SCENE_LIGHT_POINT, ABOVE, 0.0);
+    assert_true(light_see(&star, v3(0.0, 0.0, 0.0), &v) && v.solid_angle_sr > 0.0F);
+    assert_true(light_see(&spark, v3(0.0, 0.0, 0.0), &v) && v.solid_angle_sr > 0.0F);
+}
+
+/* Even over a cap means that cos is uniform between 1 and cos(radius); the mean of 64 x 64 midpoints is exact to 1e-4.
+ */
+static void shadow_rays_cover_the_light_evenly(void **state)
+{
+    (void)state;
+    const vec3 here = v3(0.0, 0.0, 0.0), up = v3(0.0, 1.0, 0.0);
+    const light sun = make(SCENE_LIGHT_DIRECTIONAL, ABOVE, 1.0), bulb = make(SCENE_LIGHT_POINT, ABOVE, 0.3);
+    light_view sun_view, bulb_view;
+    assert_true(light_see(&sun, here, &sun_view) && light_see(&bulb, here, &bulb_view));
+    double cosine = 0.0, squared_radius = 0.0;
+    vec3 sum = here;
+    for (int i = 0; i < 64 * 64; ++i) {
+        const double u[2] = { (i % 64 + 0.5) / 64.0, ((double)(i / 64) + 0.5) / 64.0 };
+        vec3 direction;
+        double distance;
+        light_pick(&sun, &sun_view, here, u, &direction, &distance);
+        assert_true(v3_dot(direction, up) >= cos(0.5) - 1e-12 && isinf(distance));
+        cosine += v3_dot(direction, up) / (64.0 * 64.0);
+        sum = v3_add(sum, direction);
+        light_pick(&bulb, &bulb_view, here, u, &direction, &distance);
+        const vec3 at = v3_scale(direction, distance);
+        assert_true(fabs(at.y - 2.0) < 1e-9); /* on the disc that faces the point */
+        squared_radius += (at.x * at.x + at.z * at.z) / (64.0 * 64.0);
+    }
+    assert_close(cosine, 0.5 * (1.0 + cos(0.5)), 1e-4);
+    assert_close(squared_radius, 0.5 * 0.09, 1e-4);
+    assert_true(fabs(sum.x) < 1e-9 && fabs(sum.z) < 1e-9);
+}
+
+/* As on a photographer's table: the key in front and on the left, the rim behind, all from above. */
+static void the_rig_stands_around_the_camera(void **state)
+{
+    (void)state;
+    const float eye[3] = { 4.0F, 1.0F, -2.0F }, straight_down[3] = { 0.0F, 5.0F, 0.0F }, target[3] = { 0 };
+    const float *const eyes[2] = { eye, straight_down };
+    for (int i = 0; i < 2; ++i) {
+        const scene_camera c = scenes_camera(SCENE_PERSPECTIVE, eyes[i], target, 0.5F);
+        scene_light lights[RIG_LIGHT_COUNT];
+        rig_lights(&c, lights);
+        const vec3 right = v3((double)c.to_world[0], (double)c.to_world[1], (double)c.to_world[2]);
+        for (int k = 0; k < RIG_LIGHT_COUNT; ++k) {
+            const light l = light_make(&lights[k]);
+            assert_true(fabs(v3_length(l.axis) - 1.0) < 1e-6);
+            assert_true(l.axis.y > 0.1 && l.intensity[0] > 0.0F);
+            if (k == 0)
+                assert_true(v3_dot(l.axis, right) < -0.1);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_sun_covers_the_cap_of_its_diameter),
+        cmocka_unit_test(a_point_light_covers_the_cap_of_its_sphere),
+        cmocka_unit_test(inside_a_light_its_cap_stays_below_a_hemisphere),
+        cmocka_unit_test(a_light_without_size_still_has_a_solid_angle),
+        cmocka_unit_test(shadow_rays_cover_the_light_evenly),
+        cmocka_unit_test(the_rig_stands_around_the_camera),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
