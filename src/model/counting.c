@@ -76,10 +76,10 @@ static void count_gathered(const gathered *g, counting_kernel *kernel, size_t co
 
 static void combine(const model_query *q, const lobe_value *lobe, float factor, glint_value *value)
 {
-    const float discrete = q->surface->discreteness * (factor - 1.0F);
+    const float g = q->surface->discreteness;
     for (int c = 0; c < 3; c++) {
         value->smooth[c] = lobe->specular[c] + lobe->diffuse[c];
-        value->rgb[c] = (lobe->specular[c] + lobe->specular[c] * discrete) + lobe->diffuse[c];
+        value->rgb[c] = lobe->specular[c] * ((1.0F - g) + g * factor) + lobe->diffuse[c];
     }
 }
 

@@ -33,18 +33,36 @@ static float clamp01(float x)
     return x < 0.0F ? 0.0F : x > 1.0F ? 1.0F : x;
 }
 
+/* What is left for the base of light that enters at one angle and leaves at the other: (1 - F_o)(1 - F_i) / (1 - F_0).
+ * glTF's own 1 - F(h.wo) is the same head-on but gives more light than came in at grazing angles; this is reciprocal
+ * and never above one. */
+static float base_albedo(const model_query *q, int channel, float cos_i)
+{
+    if (!(q->surface->diffuse[channel] > 0.0F))
+        return 0.0F;
+    const float coverage = q->material->options.coverage;
+    const float head_on = 1.0F - coverage * facet_reflectance(q, channel, 1.0F);
+    if (!(head_on > 0.0F))
+        return 0.0F;
+    const float out = 1.0F - coverage * facet_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+    const float in = 1.0F - coverage * facet_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
+    const float kept = out * (in / head_on);
+    return q->surface->diffuse[channel] * (kept < 1.0F ? kept : 1.0F);
+}
+
 void lobe_eval(const model_query *q, lobe_value *value)
 {
     const ndf n = ndf_of(q);
-    value->h = vec3_normalize(vec3_add(q->wo, q->wi));
-    value->h_dot_wi = clamp01(vec3_dot(value->h, q->wi));
+    const vec3 sum = vec3_add(q->wo, q->wi);
+    value->h = vec3_normalize(sum);
+    /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
+    value->h_dot_wi = clamp01(0.5F * sqrtf(vec3_dot(sum, sum)));
     value->density = ndf_density(&n, value->h);
     const float facets = 0.25F * value->density * ndf_masking_over_cosine(&n, q->wo, q->wi);
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
-        const float reflected = coverage * facet_reflectance(q, c, value->h_dot_wi);
-        value->specular[c] = reflected * facets;
-        value->diffuse[c] = (1.0F - reflected) * q->surface->diffuse[c] * (q->wi.z / MATH_PI);
+        value->specular[c] = coverage * facet_reflectance(q, c, value->h_dot_wi) * facets;
+        value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
 }
 
@@ -71,9 +89,8 @@ static float specular_chance(const model_query *q)
 {
     float specular = 0.0F, diffuse = 0.0F;
     for (int c = 0; c < 3; c++) {
-        const float reflected = q->material->options.coverage * facet_reflectance(q, c, q->wo.z);
-        specular += reflected;
-        diffuse += (1.0F - reflected) * q->surface->diffuse[c];
+        specular += q->material->options.coverage * facet_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+        diffuse += base_albedo(q, c, 1.0F);
     }
     if (!(diffuse > 0.0F))
         return 1.0F;

@@ -13,7 +13,7 @@ typedef struct lobe_value {
     float density; /* D(h) */
 } lobe_value;
 
-/* f = coverage F D G2 / (4 cos_o cos_i) + (1 - coverage F) diffuse / pi, each times |cos theta_i|. */
+/* f = coverage F D G2 / (4 cos_o cos_i) + diffuse / pi of what the facets let through, each times |cos theta_i|. */
 void lobe_eval(const model_query *q, lobe_value *value);
 
 /* Solid angle of the facet normals that reflect some of the light to the viewer, sr: the light's and the facet's own

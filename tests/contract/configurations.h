@@ -1,0 +1,116 @@
+/* One table: every model with every kind of option. A new model is one row in MODELS. */
+#ifndef TESTS_CONFIGURATIONS_H
+#define TESTS_CONFIGURATIONS_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "glint.h"
+#include "statistics.h"
+
+typedef struct model_row {
+    glint_model model;
+    int reciprocal; /* f(wo, wi) = f(wi, wo), count for count */
+} model_row;
+
+static const model_row MODELS[] = {
+    { GLINT_MODEL_SMOOTH, 1 },
+    { GLINT_MODEL_COUNTING, 1 },
+};
+
+typedef struct configuration {
+    const char *name;
+    glint_material_options options;
+} configuration;
+
+enum { CONFIGURATIONS = 8 };
+
+/* Configuration i of a model. */
+static inline configuration configuration_of(glint_model model, int i)
+{
+    static const char *const names[CONFIGURATIONS] = { "GGX",
+                                                       "Beckmann",
+                                                       "GGX 4:1",
+                                                       "Beckmann 4:1",
+                                                       "GGX, equal projected area, rough facets",
+                                                       "Beckmann dielectric over a diffuse base",
+                                                       "GGX conductor, elongated facets, half coverage",
+                                                       "GGX, half discrete, tinted" };
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.model = model;
+    o.distribution = i == 1 || i == 3 || i == 5 ? GLINT_DISTRIBUTION_BECKMANN : GLINT_DISTRIBUTION_GGX;
+    if (i == 2 || i == 3) {
+        o.surface.alpha_x = 0.4F;
+        o.surface.alpha_y = 0.1F;
+    }
+    if (i == 4) {
+        o.weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
+        o.facet_alpha = 0.02F;
+    }
+    if (i == 5) {
+        o.fresnel = GLINT_FRESNEL_DIELECTRIC;
+        for (int c = 0; c < 3; c++)
+            o.surface.diffuse[c] = 1.0F - 0.3F * (float)c;
+    }
+    if (i == 6) {
+        o.fresnel = GLINT_FRESNEL_CONDUCTOR;
+        o.elongation = 20.0F;
+        o.coverage = 0.5F;
+    }
+    if (i == 7) {
+        o.surface.discreteness = 0.5F;
+        for (int c = 0; c < 3; c++)
+            o.surface.f0[c] = 0.2F + 0.3F * (float)c;
+    }
+    return (configuration){ names[i], o };
+}
+
+static inline glint_material *create(const glint_material_options *o)
+{
+    glint_material *m = NULL;
+    char message[256];
+    if (glint_material_create(o, &m, message, sizeof(message)) != GLINT_OK)
+        fail_msg("glint_material_create: %s", message);
+    return m;
+}
+
+/* Calls body with m and c for every row of the table. */
+#define FOR_EACH_CONFIGURATION(c, m, row)                                                                              \
+    for (const model_row *row = MODELS; row < MODELS + sizeof(MODELS) / sizeof(MODELS[0]); row++)                      \
+        for (int i_ = 0; i_ < CONFIGURATIONS; i_++)                                                                    \
+            for (configuration c = configuration_of(row->model, i_); c.name; c.name = NULL)                            \
+                for (glint_material *m = create(&c.options); m; glint_material_destroy(m), m = NULL)
+
+static inline void direction(double theta, double phi, float v[3])
+{
+    v[0] = (float)(sin(theta) * cos(phi));
+    v[1] = (float)(sin(theta) * sin(phi));
+    v[2] = (float)cos(theta);
+}
+
+/* Uniform over the upper hemisphere, cosine-distributed. */
+static inline void random_direction(uint64_t *random, float v[3])
+{
+    direction(asin(sqrt(random_uniform(random))), random_between(random, 0.0, 6.28318530718), v);
+}
+
+static inline glint_footprint random_footprint(uint64_t *random)
+{
+    const double size = random_log_between(random, 1e-5, 1e-2), turn = random_between(random, 0.0, 6.3);
+    const double other = size * random_between(random, 0.05, 1.0);
+    return (glint_footprint){ .u = random_between(random, -10.0, 10.0),
+                              .v = random_between(random, -10.0, 10.0),
+                              .dudx = (float)(size * cos(turn)),
+                              .dudy = (float)(-other * sin(turn)),
+                              .dvdx = (float)(size * sin(turn)),
+                              .dvdy = (float)(other * cos(turn)),
+                              .seed = (uint32_t)random_bits(random) };
+}
+
+#endif

@@ -1,0 +1,363 @@
+/* What every model promises, for every model: sign, reciprocity, energy, batches, threads, sampling. */
+#include "configurations.h"
+
+#include <pthread.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static void values_are_finite_and_not_negative(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int i = 0; i < 20000; i++) {
+        float wo[3], wi[3];
+        random_direction(&random, wo);
+        random_direction(&random, wi);
+        const glint_footprint f = random_footprint(&random);
+        const glint_light light = { GLINT_LIGHT_CAP, (float)random_log_between(&random, 1e-9, 6.0) };
+        glint_value v;
+        glint_eval_value(m, NULL, &f, wo, wi, &light, &v);
+        for (int k = 0; k < 3; k++)
+            assert_true(isfinite(v.rgb[k]) && v.rgb[k] >= 0.0F && isfinite(v.smooth[k]) && v.smooth[k] >= 0.0F);
+        assert_true(v.lit_probability >= 0.0F && v.lit_probability <= 1.0F && v.facet_count >= 0.0F);
+    }
+}
+
+static void light_and_viewer_may_be_exchanged(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    {
+        if (!row->reciprocal)
+            continue;
+        for (int i = 0; i < 20000; i++) {
+            float wo[3], wi[3], there[3], back[3];
+            random_direction(&random, wo);
+            random_direction(&random, wi);
+            if (wo[2] < 1e-3F || wi[2] < 1e-3F)
+                continue;
+            const glint_footprint f = random_footprint(&random);
+            const glint_light light = { GLINT_LIGHT_CAP, 1e-3F };
+            glint_eval(m, NULL, &f, wo, wi, &light, there);
+            glint_eval(m, NULL, &f, wi, wo, &light, back);
+            for (int k = 0; k < 3; k++) {
+                const double x = (double)(there[k] / wi[2]), y = (double)(back[k] / wo[2]);
+                assert_true(fabs(x - y) <= 4e-6 * fmax(x, y));
+            }
+        }
+    }
+}
+
+static void nothing_is_seen_below_the_horizon(void **state)
+{
+    (void)state;
+    const float up[3] = { 0.0F, 0.0F, 1.0F }, down[3] = { 0.6F, 0.0F, -0.8F }, flat[3] = { 1.0F, 0.0F, 0.0F };
+    const float *const bad[] = { down, flat };
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int i = 0; i < 2; i++) {
+        const glint_footprint f = { .dudx = 1e-3F, .dvdy = 1e-3F };
+        const glint_light light = { GLINT_LIGHT_CAP, 1e-3F };
+        float rgb[3] = { 1.0F, 1.0F, 1.0F };
+        glint_eval(m, NULL, &f, up, bad[i], &light, rgb);
+        assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
+        glint_eval(m, NULL, &f, bad[i], up, &light, rgb);
+        assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
+        assert_true(glint_pdf(m, NULL, up, bad[i]) == 0.0F && glint_pdf(m, NULL, bad[i], up) == 0.0F);
+    }
+}
+
+/* Albedo by the model's own sampling, by cosine sampling, and never above one. */
+static void energy_is_kept_and_sampling_agrees_with_quadrature(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    static const double theta[] = { 0.0, 0.8, 1.3, 1.5 };
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int t = 0; t < 4; t++) {
+        float wo[3];
+        direction(theta[t], 0.3, wo);
+        moments sampled = { 0 }, quadrature = { 0 };
+        for (int i = 0; i < 60000; i++) {
+            const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
+                                 (float)random_uniform(&random) };
+            glint_sample s;
+            moments_add(&sampled, glint_sample_direction(m, NULL, wo, u, &s) ? (double)s.weight[0] : 0.0);
+            float wi[3], rgb[3];
+            random_direction(&random, wi);
+            glint_eval(m, NULL, NULL, wo, wi, NULL, rgb);
+            moments_add(&quadrature, (double)rgb[0] * PI / fmax((double)wi[2], 1e-9));
+        }
+        const double sigma = hypot(moments_standard_error(&sampled), moments_standard_error(&quadrature));
+        assert_true(sampled.mean <= 1.0 + 4.0 * moments_standard_error(&sampled) + 1e-5);
+        if (fabs(sampled.mean - quadrature.mean) > 4.5 * sigma + 1e-5)
+            fail_msg("%s, %s, view at %g: albedo %g by sampling, %g by quadrature, sigma %g",
+                     glint_model_name(row->model), c.name, theta[t], sampled.mean, quadrature.mean, sigma);
+    }
+}
+
+static void weight_times_density_is_the_value(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int i = 0; i < 20000; i++) {
+        float wo[3], rgb[3];
+        random_direction(&random, wo);
+        const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
+                             (float)random_uniform(&random) };
+        glint_sample s;
+        if (!glint_sample_direction(m, NULL, wo, u, &s))
+            continue;
+        const float pdf = glint_pdf(m, NULL, wo, s.wi);
+        assert_true(fabs((double)pdf / (double)s.pdf - 1.0) < 1e-5);
+        glint_eval(m, NULL, NULL, wo, s.wi, NULL, rgb);
+        for (int k = 0; k < 3; k++)
+            assert_true(fabs((double)(s.weight[k] * s.pdf) - (double)rgb[k]) <= 1e-5 * (double)rgb[k] + 1e-12);
+    }
+}
+
+/* 10^6 samples in 512 x 512 cells of (cos theta, phi); cells that expect less than 10 are joined. */
+static void samples_have_their_density(void **state)
+{
+    (void)state;
+    enum { ROWS = 512, COLUMNS = 512, SAMPLES = 1000000, FINE = 3 };
+    static double expected[ROWS * COLUMNS], seen[ROWS * COLUMNS];
+    uint64_t random = 5;
+    const double tests = (double)(sizeof(MODELS) / sizeof(MODELS[0])) * CONFIGURATIONS * 2.0;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int t = 0; t < 2; t++) {
+        float wo[3];
+        direction(t ? 1.3 : 0.4, 0.5, wo);
+        memset(expected, 0, sizeof(expected));
+        memset(seen, 0, sizeof(seen));
+        double inside = 0.0;
+        for (int i = 0; i < ROWS * FINE; i++)
+            for (int k = 0; k < COLUMNS * FINE; k++) {
+                const double z = (i + 0.5) / (ROWS * FINE), phi = 2.0 * PI * (k + 0.5) / (COLUMNS * FINE);
+                const double r = sqrt(1.0 - z * z);
+                const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
+                const double p = (double)glint_pdf(m, NULL, wo, wi) * 2.0 * PI / ((double)ROWS * FINE * COLUMNS * FINE);
+                expected[(i / FINE) * COLUMNS + k / FINE] += p * SAMPLES;
+                inside += p;
+            }
+        double below = 0.0;
+        for (int i = 0; i < SAMPLES; i++) {
+            const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
+                                 (float)random_uniform(&random) };
+            glint_sample s;
+            if (!glint_sample_direction(m, NULL, wo, u, &s)) {
+                below += 1.0;
+                continue;
+            }
+            const double phi = atan2((double)s.wi[1], (double)s.wi[0]) / (2.0 * PI);
+            const int column = (int)fmin((phi < 0.0 ? phi + 1.0 : phi) * COLUMNS, COLUMNS - 1);
+            seen[(int)fmin((double)s.wi[2] * ROWS, ROWS - 1) * COLUMNS + column] += 1.0;
+        }
+        /* Directions below the horizon are the last cell. */
+        double chi2 = 0.0, cells = 0.0, rest_seen = below, rest_expected = (1.0 - inside) * SAMPLES;
+        for (int i = 0; i < ROWS * COLUMNS; i++)
+            if (expected[i] >= 10.0) {
+                chi2 += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
+                cells += 1.0;
+            } else {
+                rest_seen += seen[i];
+                rest_expected += expected[i];
+            }
+        if (rest_expected >= 10.0)
+            chi2 += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
+        const double tail = chi_square_tail(chi2, cells);
+        if (tail < 0.001 / tests)
+            fail_msg("%s, %s, view %d: chi^2 %.1f on %.0f cells, significance %.1e", glint_model_name(row->model),
+                     c.name, t, chi2, cells, tail);
+    }
+}
+
+enum { BATCH = 1000 };
+
+typedef struct batch_arrays {
+    double u[BATCH], v[BATCH];
+    float jacobian[4][BATCH], wo[3][BATCH], wi[3][BATCH], solid_angle[BATCH], rgb[3][BATCH];
+    uint32_t seed[BATCH];
+    glint_surface surface[BATCH];
+} batch_arrays;
+
+static void fill(batch_arrays *a, const glint_material *m, uint64_t *random)
+{
+    for (int i = 0; i < BATCH; i++) {
+        const glint_footprint f = random_footprint(random);
+        float wo[3], wi[3];
+        random_direction(random, wo);
+        random_direction(random, wi);
+        a->u[i] = f.u;
+        a->v[i] = f.v;
+        a->jacobian[0][i] = f.dudx;
+        a->jacobian[1][i] = f.dudy;
+        a->jacobian[2][i] = f.dvdx;
+        a->jacobian[3][i] = f.dvdy;
+        a->seed[i] = f.seed;
+        for (int k = 0; k < 3; k++) {
+            a->wo[k][i] = wo[k];
+            a->wi[k][i] = i % 17 == 0 ? -wi[k] : wi[k]; /* some below the horizon */
+        }
+        a->solid_angle[i] = (float)random_log_between(random, 1e-6, 1.0);
+        a->surface[i] = glint_material_surface(m);
+        a->surface[i].alpha_x = (float)random_log_between(random, 1e-3, 1.0);
+        a->surface[i].facets_per_m2 = i % 13 == 0 ? 0.0F : (float)random_log_between(random, 1.0, 1e12);
+    }
+}
+
+static glint_batch batch_of(batch_arrays *a, int with_surfaces)
+{
+    glint_batch b = GLINT_BATCH_INIT;
+    b.count = BATCH;
+    b.u = a->u;
+    b.v = a->v;
+    b.dudx = a->jacobian[0];
+    b.dudy = a->jacobian[1];
+    b.dvdx = a->jacobian[2];
+    b.dvdy = a->jacobian[3];
+    b.seed = a->seed;
+    b.solid_angle_sr = a->solid_angle;
+    b.surfaces = with_surfaces ? a->surface : NULL;
+    for (int k = 0; k < 3; k++) {
+        b.wo[k] = a->wo[k];
+        b.wi[k] = a->wi[k];
+        b.rgb[k] = a->rgb[k];
+    }
+    return b;
+}
+
+static void batch_gives_the_bits_of_single_calls(void **state)
+{
+    (void)state;
+    static batch_arrays a;
+    uint64_t random = 6;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int with_surfaces = 0; with_surfaces < 2; with_surfaces++) {
+        fill(&a, m, &random);
+        const glint_batch b = batch_of(&a, with_surfaces);
+        assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
+        for (int i = 0; i < BATCH; i++) {
+            const glint_footprint f = { a.u[i],           a.v[i],           a.jacobian[0][i], a.jacobian[1][i],
+                                        a.jacobian[2][i], a.jacobian[3][i], a.seed[i] };
+            const float wo[3] = { a.wo[0][i], a.wo[1][i], a.wo[2][i] };
+            const float wi[3] = { a.wi[0][i], a.wi[1][i], a.wi[2][i] };
+            const glint_light light = { GLINT_LIGHT_CAP, a.solid_angle[i] };
+            float rgb[3];
+            glint_eval(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, rgb);
+            for (int k = 0; k < 3; k++)
+                assert_memory_equal(&rgb[k], &a.rgb[k][i], sizeof(float));
+        }
+    }
+}
+
+static void batch_with_a_missing_array_is_refused(void **state)
+{
+    (void)state;
+    static batch_arrays a;
+    const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    glint_material *m = create(&o);
+    glint_batch b = batch_of(&a, 0);
+    b.wi[1] = NULL;
+    assert_int_equal(glint_eval_batch(m, &b), GLINT_ERROR_ARGUMENT);
+    b = batch_of(&a, 0);
+    b.size = 0;
+    assert_int_equal(glint_eval_batch(m, &b), GLINT_ERROR_ARGUMENT);
+    assert_int_equal(glint_eval_batch(m, NULL), GLINT_ERROR_ARGUMENT);
+    glint_material_destroy(m);
+}
+
+typedef struct job {
+    const glint_material *material;
+    batch_arrays *arrays;
+} job;
+
+static void *evaluate(void *argument)
+{
+    const job *j = argument;
+    const glint_batch b = batch_of(j->arrays, 1);
+    for (int i = 0; i < 5; i++)
+        glint_eval_batch(j->material, &b);
+    return NULL;
+}
+
+static void threads_may_share_a_material(void **state)
+{
+    (void)state;
+    static batch_arrays a[3];
+    FOR_EACH_CONFIGURATION(c, m, row)
+    {
+        uint64_t random = 7;
+        fill(&a[0], m, &random);
+        a[1] = a[2] = a[0];
+        pthread_t thread[2];
+        job jobs[3] = { { m, &a[0] }, { m, &a[1] }, { m, &a[2] } };
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(pthread_create(&thread[i], NULL, evaluate, &jobs[i]), 0);
+        evaluate(&jobs[2]);
+        for (int i = 0; i < 2; i++)
+            pthread_join(thread[i], NULL);
+        assert_memory_equal(a[0].rgb, a[2].rgb, sizeof(a[0].rgb));
+        assert_memory_equal(a[1].rgb, a[2].rgb, sizeof(a[1].rgb));
+    }
+}
+
+/* Root mean square of value / smooth - 1 over footprints. */
+static double roughness_of(const glint_material *m, double facets, uint64_t *random)
+{
+    moments square = { 0 };
+    const float wo[3] = { 0.0F, 0.0F, 1.0F };
+    glint_surface s = glint_material_surface(m);
+    s.facets_per_m2 = (float)(facets / 1e-6);
+    for (int i = 0; i < 4000; i++) {
+        float wi[3];
+        direction(random_between(random, 0.0, 0.3), 1.0, wi);
+        const glint_footprint f = {
+            random_between(random, -1.0, 1.0), random_between(random, -1.0, 1.0), 1e-3F, 0.0F, 0.0F, 1e-3F, (uint32_t)i
+        };
+        const glint_light light = { GLINT_LIGHT_CAP, 1e-2F };
+        glint_value v;
+        glint_eval_value(m, &s, &f, wo, wi, &light, &v);
+        const double d = (double)(v.rgb[0] - v.smooth[0]) / (double)v.smooth[0];
+        moments_add(&square, d * d);
+    }
+    return sqrt(square.mean);
+}
+
+static void tends_to_smooth_as_density_grows(void **state)
+{
+    (void)state;
+    uint64_t random = 8;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    {
+        double last = INFINITY;
+        for (double n = 100.0; n < 1e12; n *= 100.0) {
+            const double r = roughness_of(m, n, &random);
+            /* The error falls with the square root: by 10 for 100 times the facets, give or take the noise of 4000
+             * points. */
+            assert_true(r <= last * 0.2 + 1e-6);
+            last = r;
+        }
+        assert_true(last < 1e-4);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_are_finite_and_not_negative),
+        cmocka_unit_test(light_and_viewer_may_be_exchanged),
+        cmocka_unit_test(nothing_is_seen_below_the_horizon),
+        cmocka_unit_test(energy_is_kept_and_sampling_agrees_with_quadrature),
+        cmocka_unit_test(weight_times_density_is_the_value),
+        cmocka_unit_test(samples_have_their_density),
+        cmocka_unit_test(batch_gives_the_bits_of_single_calls),
+        cmocka_unit_test(batch_with_a_missing_array_is_refused),
+        cmocka_unit_test(threads_may_share_a_material),
+        cmocka_unit_test(tends_to_smooth_as_density_grows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
