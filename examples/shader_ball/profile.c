@@ -5,10 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* 1.5 degrees: the outline of a ball that fills a picture of 1000 pixels is then off by less than a tenth of a pixel.
- */
-static const double arc_step_rad = 0.026179938779914944;
-
 static profile_part *append_part(profile *p, size_t count)
 {
     if (p->count == PROFILE_PART_LIMIT) {
@@ -39,10 +35,11 @@ void profile_line(profile *p, double from_out, double from_up, double to_out, do
     p->length += length;
 }
 
-void profile_arc(profile *p, double center_out, double center_up, double radius, double from_rad, double to_rad)
+void profile_arc(profile *p, double center_out, double center_up, double radius, double from_rad, double to_rad,
+                 double step_rad)
 {
     const double turn = to_rad - from_rad, side = turn < 0.0 ? -1.0 : 1.0;
-    const size_t rows = (size_t)ceil(fabs(turn) / arc_step_rad);
+    const size_t rows = (size_t)ceil(fabs(turn) / step_rad);
     const profile_part *part = append_part(p, rows + 1);
     for (size_t i = 0; i <= rows; i++) {
         const double t = (double)i / (double)rows, angle = from_rad + t * turn;

@@ -32,8 +32,9 @@ typedef struct profile {
 void profile_line(profile *p, double from_out, double from_up, double to_out, double to_up, double step);
 
 /* Appends an arc. Angles are radians from the upward axis towards the outward one; an angle that falls makes a hollow.
- */
-void profile_arc(profile *p, double center_out, double center_up, double radius, double from_rad, double to_rad);
+ * Rows of points lie at most step_rad apart. */
+void profile_arc(profile *p, double center_out, double center_up, double radius, double from_rad, double to_rad,
+                 double step_rad);
 
 void profile_free(profile *p);
 
