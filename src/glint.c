@@ -79,35 +79,43 @@ glint_result glint_model_find(const char *name, glint_model *model)
 
 /* ---- numbers from outside ---- */
 
-/* By bits, because comparing a NaN raises a floating-point exception. */
-static int is_finite(float x)
+/* All by bits: comparing a NaN raises a floating-point exception, and a compiler may compare before the branch that
+ * should have kept it from doing so. Floats that are not negative are ordered as their bits. */
+static uint32_t bits_of_float(float x)
 {
     uint32_t u;
     memcpy(&u, &x, sizeof(u));
-    return (u & 0x7f800000U) != 0x7f800000U;
+    return u;
 }
 
-static int is_finite_d(double x)
+/* |x| < limit; false for a NaN. */
+static int is_below(float x, float limit)
 {
-    uint64_t u;
-    memcpy(&u, &x, sizeof(u));
-    return (u & 0x7ff0000000000000U) != 0x7ff0000000000000U;
+    return (bits_of_float(x) & 0x7fffffffU) < bits_of_float(limit);
 }
 
+static int is_below_d(double x, double limit)
+{
+    uint64_t u, most;
+    memcpy(&u, &x, sizeof(u));
+    memcpy(&most, &limit, sizeof(most));
+    return (u & 0x7fffffffffffffffU) < most;
+}
+
+/* low <= x <= high, for 0 <= low. */
 static int in_range(float x, float low, float high)
 {
-    return is_finite(x) && x >= low && x <= high;
+    const uint32_t u = bits_of_float(x) == 0x80000000U ? 0U : bits_of_float(x);
+    return u >= bits_of_float(low) && u <= bits_of_float(high);
 }
 
-/* x in [low, high], low for a NaN. */
+/* x in [low, high] for 0 <= low; low for a NaN. */
 static float clamp_to(float x, float low, float high)
 {
-    if (!is_finite(x)) {
-        uint32_t u;
-        memcpy(&u, &x, sizeof(u));
-        return u == 0x7f800000U ? high : low;
-    }
-    return x < low ? low : x > high ? high : x;
+    const uint32_t u = bits_of_float(x);
+    if (u > 0x7f800000U) /* negative, or a NaN */
+        return low;
+    return u < bits_of_float(low) ? low : u > bits_of_float(high) ? high : x;
 }
 
 /* ---- set-up ---- */
@@ -288,17 +296,14 @@ typedef struct checked {
 static int is_unit(vec3 v)
 {
     /* Interpolated directions are a little off; anything further off is a mistake and gives zero. */
-    return is_finite(v.x) && is_finite(v.y) && is_finite(v.z) && fabsf(v.x) < 2.0F && fabsf(v.y) < 2.0F &&
-           fabsf(v.z) < 2.0F && fabsf(vec3_dot(v, v) - 1.0F) < 0.02F;
+    return is_below(v.x, 1.01F) && is_below(v.y, 1.01F) && is_below(v.z, 1.01F) &&
+           is_below(vec3_dot(v, v) - 1.0F, 0.02F);
 }
 
 static int is_usable(const glint_footprint *f)
 {
-    const float steps[4] = { f->dudx, f->dudy, f->dvdx, f->dvdy };
-    for (int i = 0; i < 4; i++)
-        if (!is_finite(steps[i]) || fabsf(steps[i]) > 1e6F)
-            return 0;
-    return is_finite_d(f->u) && is_finite_d(f->v) && fabs(f->u) < 1e12 && fabs(f->v) < 1e12;
+    return is_below(f->dudx, 1e6F) && is_below(f->dudy, 1e6F) && is_below(f->dvdx, 1e6F) && is_below(f->dvdy, 1e6F) &&
+           is_below_d(f->u, 1e12) && is_below_d(f->v, 1e12);
 }
 
 static glint_surface clamp_surface(const glint_surface *s)
