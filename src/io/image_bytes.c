@@ -39,6 +39,28 @@ static bool begins_with(const image_bytes *b, const signature *s)
     return true;
 }
 
+static uint32_t big_endian_u32(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+/* Every chunk is a length, a type, that many bytes and a checksum; the last one is IEND. Checked here because the
+ * decoder accepts a file that has lost its last chunk and leaks its own message about one that has lost more. */
+static bool png_is_whole(const image_bytes *b, const char *name, report *r)
+{
+    size_t at = 8;
+    while (b->byte_count - at >= 12) {
+        const size_t length = big_endian_u32(b->bytes + at);
+        if (length > b->byte_count - at - 12)
+            break;
+        if (memcmp(b->bytes + at + 4, "IEND", 4) == 0)
+            return true;
+        at += 12 + length;
+    }
+    return report_error(r, "%s: is broken: the PNG chunk at byte %zu runs past the end of its %zu bytes", name, at,
+                        b->byte_count);
+}
+
 static bool recognise(image_bytes *b, const char *name, report *r)
 {
     if (b->byte_count == 0)
@@ -101,7 +123,8 @@ static bool read_file(const scene_image *image, image_bytes *out, report *r)
 bool image_bytes_load(const scene_image *image, image_bytes *out, report *r)
 {
     *out = (image_bytes){ .bytes = image->bytes, .byte_count = image->path ? 0 : image->byte_count };
-    if ((!image->path || read_file(image, out, r)) && recognise(out, image->name, r))
+    if ((!image->path || read_file(image, out, r)) && recognise(out, image->name, r) &&
+        (strcmp(out->format, "png") != 0 || png_is_whole(out, image->name, r)))
         return true;
     image_bytes_free(out);
     return false;

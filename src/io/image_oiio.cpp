@@ -99,7 +99,7 @@ class output_proxy : public OIIO::Filesystem::IOProxy
 };
 
 /* Encodes in the named format. A failure of the disk is left to the commit, which knows the system's reason. */
-bool encode(const char *format, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void *pixels, output_file *file,
+bool encode(const char *format, OIIO::ImageSpec spec, const OIIO::TypeDesc &type, const void *pixels, output_file *file,
             const char *path, report *r)
 {
     output_proxy proxy(file);
@@ -115,7 +115,7 @@ bool encode(const char *format, OIIO::ImageSpec spec, OIIO::TypeDesc type, const
     return true;
 }
 
-bool write_picture(const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type, const void *pixels,
+bool write_picture(const char *format, const OIIO::ImageSpec &spec, const OIIO::TypeDesc &type, const void *pixels,
                    const char *path, report *r)
 {
     output_file *file = output_file_open(path, r);

@@ -161,9 +161,7 @@ static void every_truncation_is_refused(void **state)
     bytes png = small_png();
     bytes jpeg = data_file("orange.jpg");
     bytes webp = data_file("orange.webp");
-    /* A PNG without its last chunk (4 bytes of length, 4 of type, 4 of checksum) and the checksum before has all
-     * pixels. */
-    for (size_t size = 0; size < png.size - 16; size++)
+    for (size_t size = 0; size < png.size; size++)
         assert_refused(&png, size, "images/0");
     for (size_t size = 0; size < jpeg.size; size++)
         assert_refused(&jpeg, size, "images/0");

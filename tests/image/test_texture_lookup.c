@@ -72,18 +72,17 @@ enum { WIDTH = 7, HEIGHT = 5 };
 static void at_a_texel_centre_a_lookup_gives_the_texel(void **state)
 {
     (void)state;
-    uint8_t samples[WIDTH * HEIGHT * 8];
+    uint8_t samples[HEIGHT][WIDTH][4][2];
     uint32_t random = 3;
     for (size_t i = 0; i < sizeof samples; i++)
-        samples[i] = (uint8_t)random_bits(&random);
-    textures *t = open_png(WIDTH, HEIGHT, 16, PNG_RGBA, samples);
+        (&samples[0][0][0][0])[i] = (uint8_t)random_bits(&random);
+    textures *t = open_png(WIDTH, HEIGHT, 16, PNG_RGBA, &samples[0][0][0][0]);
     const scene_texture data = texture_plain(false);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
-            const uint8_t *p = samples + (y * WIDTH + x) * 8;
             double v[4];
             for (int c = 0; c < 4; c++)
-                v[c] = (p[2 * c] * 256 + p[2 * c + 1]) / 65535.0;
+                v[c] = (samples[y][x][c][0] * 256 + samples[y][x][c][1]) / 65535.0;
             float rgba[4];
             texture_at(t, &data, ((float)x + 0.5F) / WIDTH, ((float)y + 0.5F) / HEIGHT, rgba);
             /* s, and s times the size, are right to 2^-24 of at most 7 texels each: 2^-20.2 texels on each of two
@@ -250,13 +249,14 @@ static void wrap_modes_name_the_same_texel_many_periods_away(void **state)
 {
     (void)state;
     enum { W = 4, H = 8 };
-    uint8_t samples[W * H * 3];
-    for (int i = 0; i < W * H; i++) {
-        samples[3 * i] = (uint8_t)(i % W * 80);
-        samples[3 * i + 1] = (uint8_t)(i / W * 30);
-        samples[3 * i + 2] = 7;
-    }
-    textures *t = open_png(W, H, 8, PNG_RGB, samples);
+    uint8_t samples[H][W][3];
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            samples[y][x][0] = (uint8_t)(x * 80);
+            samples[y][x][1] = (uint8_t)(y * 30);
+            samples[y][x][2] = 7;
+        }
+    textures *t = open_png(W, H, 8, PNG_RGB, &samples[0][0][0]);
     for (int mode = 0; mode < 18; mode++) {
         scene_texture data = texture_plain(false);
         data.wrap_s = (scene_wrap)(mode % 3);
@@ -266,7 +266,7 @@ static void wrap_modes_name_the_same_texel_many_periods_away(void **state)
             for (int x = -3 * W; x < 4 * W; x++) {
                 float rgba[4];
                 texture_at(t, &data, ((float)x + 0.5F) / W, ((float)y + 0.5F) / H, rgba);
-                const uint8_t *p = samples + (wrapped(y, H, data.wrap_t) * W + wrapped(x, W, data.wrap_s)) * 3;
+                const uint8_t *p = samples[wrapped(y, H, data.wrap_t)][wrapped(x, W, data.wrap_s)];
                 /* The sizes are powers of two: the coordinates and the filter's weights are exact. */
                 assert_rgba(rgba, p[0] / 255.0, p[1] / 255.0, p[2] / 255.0, 1.0, 0x1p-24);
             }
