@@ -11,11 +11,15 @@
 namespace
 {
 
-// Nine digits hold any float; more would show the noise of double.
+// The fewest digits that give the same float: nine are enough for any.
 ordered_json rounded(float value)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+    for (int digits = 6; digits <= 9; digits++) {
+        std::snprintf(text, sizeof text, "%.*g", digits, static_cast<double>(value));
+        if (std::strtof(text, nullptr) == value)
+            break;
+    }
     return std::strtod(text, nullptr);
 }
 
@@ -215,12 +219,12 @@ ordered_json describe(const scene *s)
     return out;
 }
 
-// "name value, name value": one line for an object of plain values.
+// "name value, name value": one line for an object of plain values; what is false goes without saying.
 std::string line_of(const ordered_json &object)
 {
     std::string line;
     for (const auto &item : object.items()) {
-        if (item.key() == "name" || item.value().is_object() || item.value().is_null())
+        if (item.key() == "name" || item.value().is_object() || item.value().is_null() || item.value() == false)
             continue;
         const bool text = item.value().is_string();
         line += (line.empty() ? "" : ", ") + item.key() + " " +
