@@ -66,17 +66,21 @@ static float opacity_at(const void *user, const trace_hit *at)
     return shade_opacity(&st->world.shader, &st->geometry, at);
 }
 
-static bool set_lights(stage *st, const scene_camera *view, report *r)
+/* A scene that brings no light, and gets no sky, stands in the studio. */
+static bool wants_rig(const stage *st, const preview_options *o)
+{
+    return st->scene->light_count == 0 && o->sky == NULL;
+}
+
+static bool set_lights(stage *st, const preview_options *o, const scene_camera *view, report *r)
 {
     scene_light rig[RIG_LIGHT_COUNT];
-    const bool own = st->scene->light_count > 0;
-    const scene_light *from = st->scene->lights;
-    if (!own) {
+    const bool studio = wants_rig(st, o);
+    const int count = studio ? RIG_LIGHT_COUNT : st->scene->light_count;
+    const scene_light *const from = studio ? rig : st->scene->lights;
+    if (studio)
         rig_lights(view, rig);
-        from = rig;
-    }
-    const int count = own ? st->scene->light_count : RIG_LIGHT_COUNT;
-    st->lights = calloc((size_t)count, sizeof *st->lights);
+    st->lights = calloc(count > 0 ? (size_t)count : 1U, sizeof *st->lights);
     if (st->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
     for (int i = 0; i < count; ++i)
@@ -89,9 +93,10 @@ static bool set_lights(stage *st, const scene_camera *view, report *r)
 static void set_sky(stage *st, const preview_options *o)
 {
     world *const w = &st->world;
-    w->has_sky = o->sky != NULL || st->scene->light_count == 0;
+    w->has_sky = o->sky != NULL || wants_rig(st, o);
     w->sky_seen = w->has_sky && !o->transparent;
-    w->sky = o->sky != NULL ? *o->sky : w->has_sky ? rig_sky() : (preview_sky){ 0 };
+    if (w->has_sky)
+        w->sky = o->sky != NULL ? *o->sky : rig_sky();
 }
 
 static bool set_up(stage *st, const preview_options *o, preview_statistics *statistics, report *r)
@@ -114,7 +119,7 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
                          .spp = o->spp,
                          .seed = o->seed };
     set_sky(st, o);
-    if (!camera_make(&view, o->width, o->height, &st->camera, r) || !set_lights(st, &view, r) ||
+    if (!camera_make(&view, o->width, o->height, &st->camera, r) || !set_lights(st, o, &view, r) ||
         !materials_make(s, o->model, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r))
         return false;

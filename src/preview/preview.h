@@ -30,7 +30,7 @@ typedef struct preview_options {
     void (*progress)(double fraction, double elapsed_s, double left_s, void *user);
     void *user;
     const atomic_bool *cancel; /* may be NULL; when it turns true, rendering ends and returns false without an error */
-    const preview_sky *sky;    /* NULL: that of the rig where the scene has no lights, else black */
+    const preview_sky *sky;    /* NULL: that of the lookdev rig where the scene has no lights, else black */
     bool transparent;          /* camera rays do not see the sky: alpha 0 there */
 } preview_options;
 
@@ -47,7 +47,8 @@ typedef struct preview_statistics {
 /* Renders into *out, which has the size of the tile.
  *
  * Pixels are scene-linear. The bits depend on the scene, the options and nothing else: not on the number of threads,
- * the tile or the machine. A scene without a camera gets a framed one; without lights, a lookdev rig and its sky.
+ * the tile or the machine. A scene without a camera gets a framed one; without lights, and where the options bring no
+ * sky, a lookdev rig and its sky.
  *
  * Channels: R G B A, with RGB multiplied by A. With aov also, all as means over the samples of the pixel:
  *   smooth.R/G/B    the same picture, sample by sample, without discreteness

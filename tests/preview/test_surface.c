@@ -51,7 +51,8 @@ static void a_dielectric_reflects_by_its_index_and_scatters_its_color(void **sta
 {
     (void)state;
     const float index[4] = { 1.5F, 1.0F, 2.42F, 0.0F };
-    const double head_on[4] = { 0.04, 0.0, 0.17237, 1.0 }; /* ((n - 1) / (n + 1))^2; 0 means 1: KHR_materials_ior */
+    const double head_on[4] = { 0.04, 0.0, 1.42 * 1.42 / (3.42 * 3.42),
+                                1.0 }; /* ((n - 1) / (n + 1))^2; 0 means 1: KHR_materials_ior */
     for (int k = 0; k < 4; ++k) {
         scene_material m = painted();
         m.metallic = 0.0F;
