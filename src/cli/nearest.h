@@ -10,8 +10,8 @@ typedef struct nearest {
     size_t distance;
 } nearest;
 
-/* A name is near when at most a third of the wanted one's letters, and at least two, would have to change. */
 nearest nearest_begin(const char *wanted);
+/* Keeps the candidate if it is near enough (scene/edit_distance.h) and nearer than those before it. */
 void nearest_consider(nearest *n, const char *candidate);
 
 #endif
