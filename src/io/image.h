@@ -33,9 +33,9 @@ bool image_name_channel(image *i, int channel, const char *name, const char *pat
 /* Every channel has a name of its own; if not, an error that names path. */
 bool image_check_names(const image *i, const char *path, report *r);
 
-/* Any format of OpenImageIO, its first picture. Float files come as they are; what stores 8 or 16-bit integers is taken
- * for sRGB with straight alpha and decoded. Channels may come in another order than they were written in: look them up.
- */
+/* OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP; the first picture of a file. Float files come as they are; what
+ * stores 8 or 16-bit integers is taken for sRGB with straight alpha and decoded. Channels may come in another order
+ * than they were written in: look them up. */
 bool image_read(const char *path, image *out, report *r);
 
 typedef struct image_text {

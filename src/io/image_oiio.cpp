@@ -44,15 +44,27 @@ std::string one_line(std::string text)
     return text;
 }
 
+/* Alpha stays as the file has it, straight in all formats but OpenEXR. NULL after an error. */
+std::unique_ptr<OIIO::ImageInput> open_input(const char *format, const std::string &path, OIIO::ImageSpec config,
+                                             const char *name, report *r)
+{
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    auto file = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec spec;
+    if (file && file->open(path, spec, config))
+        return file;
+    report_error(r, "%s: is broken: %s", name, one_line(file ? file->geterror() : OIIO::geterror()).c_str());
+    return nullptr;
+}
+
 /* ---- pictures in ---- */
 
 bool read_picture(const char *path, image *out, report *r)
 {
-    OIIO::ImageSpec straight_alpha;
-    straight_alpha.attribute("oiio:UnassociatedAlpha", 1);
-    const auto file = OIIO::ImageInput::open(path, &straight_alpha);
+    const char *format = image_file_format(path, r);
+    const auto file = format ? open_input(format, path, OIIO::ImageSpec(), path, r) : nullptr;
     if (!file)
-        return report_error(r, "%s: cannot be read: %s", path, one_line(OIIO::geterror()).c_str());
+        return false;
     const OIIO::ImageSpec &spec = file->spec();
     if (spec.depth > 1 || spec.deep)
         return report_error(r, "%s: is a volume or a deep image, expected a flat one", path);
@@ -62,7 +74,7 @@ bool read_picture(const char *path, image *out, report *r)
         if (!image_name_channel(out, c, spec.channelnames[static_cast<size_t>(c)].c_str(), path, r))
             return false;
     if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out->pixels) || file->has_error())
-        return report_error(r, "%s: cannot be read: %s", path, one_line(file->geterror()).c_str());
+        return report_error(r, "%s: is broken: %s", path, one_line(file->geterror()).c_str());
     if (spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16)
         image_from_srgb(out, spec.alpha_channel);
     return true;
@@ -232,11 +244,10 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
     OIIO::Filesystem::IOProxy *proxy = &reader;
     OIIO::ImageSpec config;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    config.attribute("oiio:UnassociatedAlpha", 1); /* glTF: alpha is straight */
-    const auto file = OIIO::ImageInput::create(bytes.format);
-    OIIO::ImageSpec spec;
-    if (!file || !file->open(std::string("texture.") + bytes.format, spec, config))
-        return report_error(r, "%s: is broken: %s", name, one_line(file ? file->geterror() : OIIO::geterror()).c_str());
+    const auto file = open_input(bytes.format, std::string("texture.") + bytes.format, config, name, r);
+    if (!file)
+        return false;
+    const OIIO::ImageSpec &spec = file->spec();
     if (spec.nchannels < 1 || spec.nchannels > 4)
         return report_error(r, "%s: has %d channels, expected 1 to 4", name, spec.nchannels);
     const int channel_count = spec.nchannels == 2 ? 4 : spec.nchannels;

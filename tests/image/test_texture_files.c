@@ -103,6 +103,7 @@ static void what_is_not_an_image_is_refused(void **state)
     assert_bytes_refused("\xabKTX 20\xbb\r\n\x1a\n", 12, "KTX2");
     assert_bytes_refused("DDS |", 5, "DDS");
     assert_bytes_refused("GIF89a", 6, "GIF");
+    assert_bytes_refused("\x76\x2f\x31\x01", 4, "OpenEXR");
 }
 
 static void what_is_not_a_file_is_refused(void **state)
@@ -112,7 +113,7 @@ static void what_is_not_a_file_is_refused(void **state)
     const char *pipe_path = folder_path(folder, "pipe");
     assert_int_equal(mkfifo(pipe_path, 0600), 0);
     const char *const paths[3] = { folder_path(folder, "missing.png"), folder, pipe_path };
-    static const char *const reasons[3] = { "No such file", "is not a file", "is not a file" };
+    static const char *const reasons[3] = { "No such file", "is not a regular file", "is not a regular file" };
     for (int i = 0; i < 3; i++) {
         report r = { 0 };
         assert_null(open_file(paths[i], &r));
