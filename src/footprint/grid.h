@@ -40,6 +40,12 @@ typedef struct grid_shape {
     vfloat turn;           /* direction of the major axis over pi, in [0, 1) */
 } grid_shape;
 
+/* An ellipse on the surface: the symmetric matrix of its second moments, m^2, and the root of its determinant. */
+typedef struct grid_ellipse {
+    vfloat uu, vv, uv;
+    vfloat area; /* > 0 */
+} grid_ellipse;
+
 /* Area of the parallelogram that one pixel covers, m^2. In double: at aspect 10^6 a float difference has no digit left.
  */
 static inline vfloat grid_area(vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvdy)
@@ -47,15 +53,27 @@ static inline vfloat grid_area(vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvd
     return abs_f(narrow(widen(dudx) * widen(dvdy) - widen(dudy) * widen(dvdx)));
 }
 
-static inline grid_shape grid_shape_of(vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvdy, vfloat area)
+/* The pixel, convolved with a round facet of this area: J J^T + facet_area I. A pixel that is smaller than a facet,
+ * along one axis or both, sees the facet's size instead of its own. */
+static inline grid_ellipse grid_ellipse_of(vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvdy, vfloat area,
+                                           vfloat facet_area)
 {
     const vfloat uu = dudx * dudx + dudy * dudy;
     const vfloat vv = dvdx * dvdx + dvdy * dvdy;
-    const vfloat uv = dudx * dvdx + dudy * dvdy;
-    const vfloat half_sum = 0.5F * (uu + vv), half_difference = 0.5F * (uu - vv);
-    const vfloat radius = sqrt_f(half_difference * half_difference + uv * uv);
+    grid_ellipse e;
+    e.uu = uu + facet_area;
+    e.vv = vv + facet_area;
+    e.uv = dudx * dvdx + dudy * dvdy;
+    e.area = sqrt_f(area * area + facet_area * (uu + vv) + facet_area * facet_area);
+    return e;
+}
+
+static inline grid_shape grid_shape_of(const grid_ellipse *e)
+{
+    const vfloat half_sum = 0.5F * (e->uu + e->vv), half_difference = 0.5F * (e->uu - e->vv);
+    const vfloat radius = sqrt_f(half_difference * half_difference + e->uv * e->uv);
     const vfloat major2 = half_sum + radius; /* square of the larger singular value */
-    const vfloat bounded = max_f(area, major2 * (1.0001F / (1 << GRID_MAX_RATIO_LOG2)));
+    const vfloat bounded = max_f(e->area, major2 * (1.0001F / (1 << GRID_MAX_RATIO_LOG2)));
     const vfloat aspect = max_f(major2 / bounded, splat(1.0F));
     /* A triangular lattice of spacing s has sqrt(3)/2 s^2 of area per vertex: this minor axis makes it the footprint's.
      */
@@ -67,7 +85,7 @@ static inline grid_shape grid_shape_of(vfloat dudx, vfloat dudy, vfloat dvdx, vf
     s.ratio_fraction = mantissa_of(aspect) - 1.0F;
     s.level = exponent_of(minor);
     s.rise = (1.0F + s.ratio_fraction) * (m * m - 1.0F) * (1.0F / 3.0F);
-    s.turn = turn_of(uv, half_difference);
+    s.turn = turn_of(e->uv, half_difference);
     return s;
 }
 
@@ -192,11 +210,10 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     cell[2] = hash_full(origin + HASH_Y);
 }
 
-/* (u, v) in metres, |u| and |v| < 2^50 cells; area from grid_area, > 0. */
-static inline grid_point grid_locate(vdouble u, vdouble v, vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvdy,
-                                     vfloat area, vuint seed)
+/* (u, v) in metres, |u| and |v| < 2^50 cells. */
+static inline grid_point grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed)
 {
-    const grid_shape shape = grid_shape_of(dudx, dudy, dvdx, dvdy, area);
+    const grid_shape shape = grid_shape_of(ellipse);
     grid_vertex vertex[GRID_COUNT];
     grid_point p;
     grid_tetrahedron(&shape, vertex, p.share);

@@ -20,6 +20,10 @@
 /* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
 #define LEAST_COUNT 1e-20F
 
+/* One facet on a square of a thousand kilometres: sparser than that counts as that. */
+#define LEAST_DENSITY 1e-12F
+#define LEAST_AREA 1e-30F
+
 /* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
 #define ANGULAR_LEVELS 14
 
@@ -97,21 +101,18 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
 void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t count, float *factor, float *facets)
 {
     for (size_t i = 0; i < count; i += GLINT_LANES) {
-        vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
-        vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
+        const vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
+        const vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
         const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
-        /* A pixel without area has no facets to count: the unit square stands in, so that nothing divides by zero. */
-        const vmask flat = less(area, splat(1e-30F));
-        dudx = choose(flat, splat(1.0F), dudx);
-        dudy = choose(flat, splat(0.0F), dudy);
-        dvdx = choose(flat, splat(0.0F), dvdx);
-        dvdy = choose(flat, splat(1.0F), dvdy);
-        const vfloat n = min_f(area * load_f(points->density + i), splat(1e30F));
-        const grid_point grid = grid_locate(load_d(points->u + i), load_d(points->v + i), dudx, dudy, dvdx, dvdy,
-                                            choose(flat, splat(1.0F), area), load_u(points->seed + i));
-        const vfloat f = lit_factor(&grid, n, load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i),
-                                    load_f(points->p + i));
+        const vfloat density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
+        const grid_ellipse ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, 1.0F / density);
+        const grid_point grid =
+            grid_locate(load_d(points->u + i), load_d(points->v + i), &ellipse, load_u(points->seed + i));
+        const vfloat f = lit_factor(&grid, ellipse.area * density, load_f(points->hx + i), load_f(points->hy + i),
+                                    load_f(points->cap + i), load_f(points->p + i));
+        /* A pixel without area is a mistake or the limit of one; it shows no single facet. */
+        const vmask flat = less(area, splat(LEAST_AREA));
         store_f(factor + i, choose(flat, splat(1.0F), f));
-        store_f(facets + i, n);
+        store_f(facets + i, area * density);
     }
 }
