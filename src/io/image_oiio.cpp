@@ -37,8 +37,7 @@ template <class Work> bool guarded(const char *name, report *r, Work work) noexc
 /* OpenImageIO separates several messages by line breaks; ours are one line. */
 std::string one_line(std::string text)
 {
-    while (!text.empty() && text.back() == '\n')
-        text.pop_back();
+    text.erase(text.find_last_not_of('\n') + 1);
     for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n'))
         text.replace(end, 1, "; ");
     return text;
@@ -120,9 +119,7 @@ bool encode(const char *format, OIIO::ImageSpec spec, const OIIO::TypeDesc &type
     if (!out)
         return report_error(r, "%s: %s", path, one_line(OIIO::geterror()).c_str());
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &pointer);
-    const bool done = out->open(path, spec) && out->write_image(type, pixels) && out->close();
-    const bool disk_failed = !output_file_write(file, "", 0);
-    if (!done && !disk_failed)
+    if (!(out->open(path, spec) && out->write_image(type, pixels) && out->close()) && !output_file_failed(file))
         return report_error(r, "%s: cannot be encoded: %s", path, one_line(out->geterror()).c_str());
     return true;
 }
@@ -139,34 +136,6 @@ bool write_picture(const char *format, const OIIO::ImageSpec &spec, const OIIO::
     return false;
 }
 
-bool write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
-{
-    if (!image_check_names(i, path, r))
-        return false;
-    OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
-    for (int c = 0; c < i->channel_count; c++)
-        spec.channelnames[static_cast<size_t>(c)] = i->channel_names[c];
-    /* Empty unless the metadata ask for one: OpenImageIO would stamp the time, and the same picture differ by it. */
-    spec.attribute("DateTime", "");
-    for (size_t m = 0; m < metadata_count; m++)
-        spec.attribute(metadata[m].key, metadata[m].value);
-    spec.attribute("compression", "zip");
-    return write_picture("openexr", spec, OIIO::TypeDesc::FLOAT, i->pixels, path, r);
-}
-
-bool write_png(const char *path, const image *i, float exposure_ev, report *r)
-{
-    const int channel_count = image_channel(i, "A") < 0 ? 3 : 4;
-    std::vector<uint8_t> bytes(static_cast<size_t>(i->width) * static_cast<size_t>(i->height) *
-                               static_cast<size_t>(channel_count));
-    if (!image_to_srgb(i, exposure_ev, bytes.data()))
-        return report_error(r, "%s: the picture has no channels R, G and B", path);
-    OIIO::ImageSpec spec(i->width, i->height, channel_count, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
-}
-
 /* ---- textures ---- */
 
 /* Shows a mipmap to the image cache as if it were a file. The cache has every level as one tile of ours from the start,
@@ -178,17 +147,15 @@ class mipmap_input final : public OIIO::ImageInput
     {
         return "glint mipmap";
     }
-    bool open(const std::string &name, OIIO::ImageSpec &spec) override
+    bool open(const std::string &, OIIO::ImageSpec &) override
     {
-        errorfmt("{}: no mipmap was given", name);
-        spec = m_spec;
-        return false;
+        return false; /* the mipmap comes with the configuration */
     }
-    bool open(const std::string &name, OIIO::ImageSpec &spec, const OIIO::ImageSpec &config) override
+    bool open(const std::string &, OIIO::ImageSpec &spec, const OIIO::ImageSpec &config) override
     {
         const OIIO::ParamValue *given = config.find_attribute(attribute_name, OIIO::TypeDesc::PTR);
         if (!given)
-            return open(name, spec);
+            return false;
         source_ = *static_cast<const mipmap *const *>(given->data());
         seek_subimage(0, 0);
         spec = m_spec;
@@ -281,12 +248,9 @@ bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
     return true;
 }
 
-OIIO::TextureOpt::Wrap wrap_mode(scene_wrap wrap)
-{
-    if (wrap == SCENE_WRAP_CLAMP)
-        return OIIO::TextureOpt::WrapClamp;
-    return wrap == SCENE_WRAP_MIRROR ? OIIO::TextureOpt::WrapMirror : OIIO::TextureOpt::WrapPeriodic;
-}
+/* By scene_wrap. */
+constexpr OIIO::TextureOpt::Wrap wrap_modes[] = { OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
+                                                  OIIO::TextureOpt::WrapMirror };
 
 /* An image as data or as colour; without levels where no material uses it so. */
 struct texture_source {
@@ -321,10 +285,8 @@ struct textures {
     bool open(const scene &s, const scene_texture &use, report *r)
     {
         texture_source &source = sources[index(use)];
-        if (source.handle)
-            return true;
         const scene_image &picture = s.images[use.image];
-        return load_mipmap(picture, use.srgb, &source.texels, r) && add(index(use), picture.name, r);
+        return source.handle || (load_mipmap(picture, use.srgb, &source.texels, r) && add(index(use), picture.name, r));
     }
 
     /* Hands every level over as one tile that stays where it is. */
@@ -363,12 +325,32 @@ bool image_read(const char *path, image *out, report *r)
 
 bool image_write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
 {
-    return guarded(path, r, [&] { return write_exr(path, i, metadata, metadata_count, r); });
+    return image_check_names(i, path, r) && guarded(path, r, [&] {
+               OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
+               spec.channelnames.assign(i->channel_names, i->channel_names + i->channel_count);
+               /* Empty unless the metadata ask for one: OpenImageIO would stamp the time, and the same picture differ
+                * by it. */
+               spec.attribute("DateTime", "");
+               for (size_t m = 0; m < metadata_count; m++)
+                   spec.attribute(metadata[m].key, metadata[m].value);
+               spec.attribute("compression", "zip");
+               return write_picture("openexr", spec, OIIO::TypeDesc::FLOAT, i->pixels, path, r);
+           });
 }
 
 bool image_write_png(const char *path, const image *i, float exposure_ev, report *r)
 {
-    return guarded(path, r, [&] { return write_png(path, i, exposure_ev, r); });
+    return guarded(path, r, [&] {
+        const int channel_count = image_channel(i, "A") < 0 ? 3 : 4;
+        const size_t pixel_count = static_cast<size_t>(i->width) * static_cast<size_t>(i->height);
+        std::vector<uint8_t> bytes(pixel_count * static_cast<size_t>(channel_count));
+        if (!image_to_srgb(i, exposure_ev, bytes.data()))
+            return report_error(r, "%s: the picture has no channels R, G and B", path);
+        OIIO::ImageSpec spec(i->width, i->height, channel_count, OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
+    });
 }
 
 bool textures_open(const scene *s, textures **out, report *r)
@@ -402,11 +384,15 @@ void texture_lookup(const textures *t, const scene_texture *which, float s, floa
     const texture_point uv = { s, t_, dsdx, dtdx, dsdy, dtdy };
     const texture_point p = texture_transform(which, &uv);
     OIIO::TextureOpt options;
-    options.swrap = wrap_mode(which->wrap_s);
-    options.twrap = wrap_mode(which->wrap_t);
+    options.swrap = wrap_modes[which->wrap_s];
+    options.twrap = wrap_modes[which->wrap_t];
     options.mipmode = which->nearest ? OIIO::TextureOpt::MipModeNoMIP : OIIO::TextureOpt::MipModeAniso;
     options.interpmode = which->nearest ? OIIO::TextureOpt::InterpClosest : OIIO::TextureOpt::InterpBilinear;
     options.fill = 1.0F; /* alpha, where the image has none */
-    t->system->texture(t->sources[textures::index(*which)].handle, t->system->get_perthread_info(), options, p.s, p.t,
-                       p.dsdx, p.dtdx, p.dsdy, p.dtdy, 4, rgba);
+    try {
+        t->system->texture(t->sources[textures::index(*which)].handle, t->system->get_perthread_info(), options, p.s,
+                           p.t, p.dsdx, p.dtdx, p.dsdy, p.dtdy, 4, rgba);
+    } catch (const std::bad_alloc &) {
+        /* A thread's first lookup finds no memory for its own part of the cache: white, as without a texture. */
+    }
 }

@@ -135,6 +135,11 @@ bool output_file_write(output_file *f, const void *data, size_t byte_count)
     return !f->error && remember(f, fwrite(data, 1, byte_count, f->stream) == byte_count);
 }
 
+bool output_file_failed(const output_file *f)
+{
+    return f->error != 0;
+}
+
 bool output_file_seek(output_file *f, int64_t position)
 {
     return !f->error && remember(f, fseeko(f->stream, position, SEEK_SET) == 0);

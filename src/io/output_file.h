@@ -23,6 +23,8 @@ output_file *output_file_open(const char *path, report *r);
 /* Writes at the current position. After the first failure it writes nothing more, returns false, and the commit fails.
  */
 bool output_file_write(output_file *f, const void *data, size_t byte_count);
+/* Whether a write or a seek has failed. */
+bool output_file_failed(const output_file *f);
 /* Bytes from the start, for formats that fill in a table at the end. */
 bool output_file_seek(output_file *f, int64_t position);
 int64_t output_file_tell(output_file *f);
