@@ -16,9 +16,9 @@ typedef struct rig_light {
 
 /* Taste, all of it: three-point lighting. The key is small, nearly as small as the sun, so that flakes flash. */
 static const rig_light RIG[RIG_LIGHT_COUNT] = {
-    { "key", -0.75, 0.80, { 1.0F, 0.97F, 0.92F }, 3.2F, 0.015F },
-    { "fill", 1.10, 0.35, { 0.86F, 0.92F, 1.0F }, 0.7F, 0.12F },
-    { "rim", 2.60, 0.55, { 1.0F, 1.0F, 1.0F }, 1.8F, 0.02F },
+    { "key", -0.75, 0.80, { 1.0F, 0.97F, 0.92F }, 2.2F, 0.015F },
+    { "fill", 1.10, 0.35, { 0.86F, 0.92F, 1.0F }, 0.4F, 0.12F },
+    { "rim", 2.60, 0.55, { 1.0F, 1.0F, 1.0F }, 1.4F, 0.02F },
 };
 
 void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])
@@ -74,9 +74,9 @@ bool preview_add_lookdev_rig(scene *s, report *r)
 
 preview_sky rig_sky(void)
 {
-    return (preview_sky){ .zenith = { 0.50F, 0.56F, 0.66F },
-                          .horizon = { 0.30F, 0.31F, 0.33F },
-                          .ground = { 0.10F, 0.095F, 0.09F } };
+    return (preview_sky){ .zenith = { 0.42F, 0.46F, 0.53F },
+                          .horizon = { 0.20F, 0.205F, 0.215F },
+                          .ground = { 0.06F, 0.057F, 0.054F } };
 }
 
 void sky_radiance(const preview_sky *sky, vec3 direction, float rgb[3])
