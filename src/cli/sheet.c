@@ -24,7 +24,7 @@ static void show_numbers(document *object, const char *key, const char *label, c
         printf("%s%.6g", i == 0 ? "" : " ", (double)values[i]);
     va_list list;
     va_start(list, words);
-    vprintf(words, list);
+    vfprintf(stdout, words, list);
     va_end(list);
     putchar('\n');
 }
