@@ -161,7 +161,8 @@ static void the_half_vector_varies_as_a_grid_of_viewers_says(void **state)
     const surface_step turn = { v3(0.003, 0.0, 0.0), v3(0.0, -0.008, 0.0) };
     double squares = 0.0;
     for (int i = 0; i < GRID * GRID; ++i) {
-        const double a = (i % GRID + 0.5) / GRID - 0.5, b = ((double)(i / GRID) + 0.5) / GRID - 0.5;
+        const int column = i % GRID, row = i / GRID;
+        const double a = (column + 0.5) / GRID - 0.5, b = (row + 0.5) / GRID - 0.5;
         const vec3 wo = v3_normalize(v3_mad(v3_mad(light, view_dx, a), view_dy, b));
         const vec3 n = v3_normalize(v3_mad(v3_mad(light, turn.dx, a), turn.dy, b));
         const vec3 h = v3_normalize(v3_add(wo, light));

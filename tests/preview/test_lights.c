@@ -86,7 +86,8 @@ static void shadow_rays_cover_the_light_evenly(void **state)
     double cosine = 0.0, squared_radius = 0.0;
     vec3 sum = here;
     for (int i = 0; i < 64 * 64; ++i) {
-        const double u[2] = { (i % 64 + 0.5) / 64.0, ((double)(i / 64) + 0.5) / 64.0 };
+        const int column = i % 64, row = i / 64;
+        const double u[2] = { (column + 0.5) / 64.0, (row + 0.5) / 64.0 };
         vec3 direction;
         double distance;
         light_pick(&sun, &sun_view, here, u, &direction, &distance);

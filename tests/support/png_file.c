@@ -21,6 +21,8 @@ typedef struct bytes {
 
 static void put(bytes *b, const void *data, size_t count)
 {
+    if (count == 0)
+        return;
     b->data = checked(realloc(b->data, b->count + count));
     memcpy(b->data + b->count, data, count);
     b->count += count;
@@ -48,8 +50,7 @@ static void put_chunk(bytes *png, const char *type, const bytes *content)
     put_u32(png, (uint32_t)content->count);
     const size_t start = png->count;
     put(png, type, 4);
-    if (content->count > 0)
-        put(png, content->data, content->count);
+    put(png, content->data, content->count);
     put_u32(png, crc32_of(png->data + start, png->count - start));
 }
 
@@ -74,7 +75,8 @@ uint8_t *png_file(const uint8_t *rgba, int width, int height, size_t *byte_count
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
     static const uint8_t depth8_rgba[5] = { 8, 6, 0, 0, 0 };
-    bytes png = { 0 }, header = { 0 }, raw = { 0 }, none = { 0 };
+    bytes png = { 0 }, header = { 0 }, raw = { 0 };
+    const bytes none = { 0 };
     put(&png, signature, sizeof signature);
     put_u32(&header, (uint32_t)width);
     put_u32(&header, (uint32_t)height);
