@@ -147,11 +147,13 @@ void geometry_compute_tangents(geometry &g, int texcoord_set)
     if (!tangent_space_compute(&input, corner_tangents.data()))
         throw std::bad_alloc();
 
-    // Sorted, the corners that may share a vertex are neighbours.
+    // Sorted, the corners that may share a vertex are neighbours. Only tangents of the same bits share: any order of
+    // bits will do.
     std::vector<uint32_t> corners(g.index.size());
     std::iota(corners.begin(), corners.end(), 0U);
     const auto compare = [&](uint32_t a, uint32_t b) {
         return g.index[a] != g.index[b] ? (g.index[a] < g.index[b] ? -1 : 1)
+                                        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
                                         : std::memcmp(&corner_tangents[a * size_t{ 4 }],
                                                       &corner_tangents[b * size_t{ 4 }], 4 * sizeof(float));
     };

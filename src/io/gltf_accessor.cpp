@@ -76,6 +76,7 @@ element_view elements_of(const gltf_file &file, int view_index, size_t offset, s
                          "found " + std::to_string(stride) + ", expected at least the " + std::to_string(element_size) +
                              " bytes of an element of " + pointer);
     if (offset > bytes.size || bytes.size - offset < element_size ||
+        // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): the schema leaves no type without components
         (bytes.size - offset - element_size) / stride < count - 1)
         throw file_error(pointer, "found " + std::to_string(count) + " elements of " + std::to_string(element_size) +
                                       " bytes from byte " + std::to_string(offset) +
@@ -231,6 +232,7 @@ std::vector<float> gltf_read_floats(gltf_file &file, int index)
         if (!std::isfinite(out[i]))
             throw file_error(pointer_of(index),
                              std::string("found ") + (std::isnan(out[i]) ? "NaN" : "infinity") + " in element " +
+                                 // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): as above
                                  std::to_string(i / static_cast<size_t>(gltf_component_count(accessor))) +
                                  ", expected finite numbers");
     return out;
