@@ -11,6 +11,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double sun_diameter_rad = 0.00929; // of the sun seen from the earth
+constexpr int max_instances = 1 << 26;       // our choice: 6 GB of them
 constexpr double bulb_radius_m = 0.01;       // our choice: a small lamp
 
 struct node_reader {
@@ -35,7 +36,7 @@ void append_instances(node_reader &r, size_t number, gltf_mesh_range range, cons
         return;
     }
     for (int i = 0; i < range.count; i++) {
-        if (r.file.elements_left == 0)
+        if (r.file.elements_left == 0 || r.s->instance_count >= max_instances)
             throw file_error(pointer, "found more instances than the bytes of the file account for");
         r.file.elements_left--;
         scene_instance *instance = scene_append(&r.s->instances, &r.s->instance_count);

@@ -124,7 +124,7 @@ void move_into(scene *preset, scene *s, scene_material *out)
 {
     const int first = s->image_count;
     for (int i = 0; i < preset->image_count; i++) {
-        *scene_append(&s->images, &s->image_count) = preset->images[i];
+        *scene_append_to_any(&s->images, &s->image_count) = preset->images[i];
         preset->images[i] = scene_image{};
     }
     *out = preset->materials[0];
