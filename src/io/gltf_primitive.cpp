@@ -262,13 +262,14 @@ bool gltf_read_primitive(gltf_file &file, const tinygltf::Mesh &mesh, const tiny
     }
     attributes a(file, primitive, pointer);
     out.vertex_count = static_cast<uint32_t>(std::min<size_t>(a.vertex_count(), UINT32_MAX));
+    // First of all: that the file holds the vertices bounds what follows.
+    out.position = a.read("POSITION");
     std::optional<std::vector<uint32_t>> decoded = a.draco_indices();
     const int mode = decoded ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const std::vector<uint32_t> corners =
         decoded ? std::move(*decoded) : read_corners(file, primitive, a.vertex_count(), pointer);
     check_corner_count(corners.size(), mode, pointer);
     out.index = triangles_of(corners, mode);
-    out.position = a.read("POSITION");
     out.normal = a.read("NORMAL");
     out.tangent = a.read("TANGENT");
     out.texcoord[0] = a.read("TEXCOORD_0");

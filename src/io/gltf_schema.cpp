@@ -2,6 +2,7 @@
 #include "io/gltf_schema.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <string_view>
@@ -24,7 +25,9 @@ constexpr double max_integer = 9007199254740991.0; // 2^53 - 1: exact in a doubl
 
 std::string number_text(double value)
 {
-    return json(value).dump();
+    char text[32];
+    std::snprintf(text, sizeof text, "%.10g", value);
+    return text;
 }
 
 std::string range_text(const property &p)

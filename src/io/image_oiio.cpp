@@ -67,8 +67,9 @@ bool read_picture(const char *path, image *out, report *r)
     const OIIO::ImageSpec &spec = file->spec();
     if (spec.depth > 1 || spec.deep)
         return report_error(r, "%s: is a volume or a deep image, expected a flat one", path);
-    if (!image_allocate(out, spec.width, spec.height, spec.nchannels, r))
-        return false;
+    report size = {};
+    if (!image_allocate(out, spec.width, spec.height, spec.nchannels, &size))
+        return report_error(r, "%s: %s", path, size.error);
     for (int c = 0; c < spec.nchannels; c++)
         if (!image_name_channel(out, c, spec.channelnames[static_cast<size_t>(c)].c_str(), path, r))
             return false;
@@ -193,10 +194,6 @@ class mipmap_input final : public OIIO::ImageInput
     {
         return m.coding == MIPMAP_HALF ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT16;
     }
-    static OIIO::ImageInput *create()
-    {
-        return new mipmap_input;
-    }
     static constexpr const char *attribute_name = "glint:mipmap";
 
   private:
@@ -297,7 +294,8 @@ struct textures {
         const OIIO::ustring name = OIIO::ustring::fmtformat("texture {}", number);
         OIIO::ImageSpec config;
         config.attribute(mipmap_input::attribute_name, OIIO::TypeDesc::PTR, &texels);
-        bool done = cache->add_file(name, mipmap_input::create, &config);
+        bool done = cache->add_file(
+            name, []() -> OIIO::ImageInput * { return new mipmap_input; }, &config);
         for (int l = 0; done && l < texels->level_count; l++)
             done =
                 cache->add_tile(name, 0, l, 0, 0, 0, 0, texels->channel_count, mipmap_input::texel_type(*texels),

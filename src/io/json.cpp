@@ -27,46 +27,96 @@ std::string place_of(std::string_view text, size_t byte)
     return "line " + std::to_string(line) + ", column " + std::to_string(end - line_start + 1);
 }
 
-// Sees every value while it is parsed, so that a document that is too deep or too large is never built.
-class limits
+// Reads the text once without building anything, so that a document that is too deep or too large is never built. (The
+// parser's own callbacks would do, were they not quadratic in the length of an array.)
+class checker : public nlohmann::json_sax<json>
 {
   public:
-    bool operator()(int depth, json::parse_event_t event, const json &parsed)
+    explicit checker(std::string_view text) : text_(text)
     {
-        switch (event) {
-        case json::parse_event_t::object_start:
-            check_depth(depth);
-            keys_.emplace_back();
-            break;
-        case json::parse_event_t::object_end:
-            keys_.pop_back();
-            break;
-        case json::parse_event_t::array_start:
-            check_depth(depth);
-            break;
-        case json::parse_event_t::key:
-            if (!keys_.back().insert(parsed.get<std::string>()).second)
-                throw file_error("",
-                                 "found the key " + json_excerpt(parsed) + " twice in one object; keys must be unique");
-            break;
-        default:
-            break;
-        }
+    }
+    bool null() override
+    {
+        return count();
+    }
+    bool boolean(bool) override
+    {
+        return count();
+    }
+    bool number_integer(number_integer_t) override
+    {
+        return count();
+    }
+    bool number_unsigned(number_unsigned_t) override
+    {
+        return count();
+    }
+    bool number_float(number_float_t, const string_t &) override
+    {
+        return count();
+    }
+    bool string(string_t &) override
+    {
+        return count();
+    }
+    bool binary(binary_t &) override
+    {
+        return count();
+    }
+    bool start_object(size_t) override
+    {
+        keys_.emplace_back();
+        return deeper();
+    }
+    bool key(string_t &name) override
+    {
+        if (!keys_.back().insert(name).second)
+            throw file_error("",
+                             "found the key " + json_excerpt(json(name)) + " twice in one object; keys must be unique");
+        return true;
+    }
+    bool end_object() override
+    {
+        keys_.pop_back();
+        depth_--;
+        return true;
+    }
+    bool start_array(size_t) override
+    {
+        return deeper();
+    }
+    bool end_array() override
+    {
+        depth_--;
+        return true;
+    }
+    bool parse_error(size_t byte, const std::string &, const nlohmann::detail::exception &e) override
+    {
+        constexpr int number_overflow = 406;
+        throw file_error(place_of(text_, byte > 0 ? byte - 1 : 0),
+                         e.id == number_overflow ? "found a number beyond the range of a double; numbers must be finite"
+                                                 : "found text that is not JSON");
+    }
+
+  private:
+    bool count()
+    {
         if (++values_ > max_values)
             throw file_error("",
                              "found more than " + std::to_string(max_values) + " JSON values, the most that is read");
         return true;
     }
-
-  private:
-    static void check_depth(int depth)
+    bool deeper()
     {
-        if (depth >= max_depth)
+        if (++depth_ > max_depth)
             throw file_error("", "found JSON nested deeper than " + std::to_string(max_depth) +
                                      " levels, the most that is read");
+        return count();
     }
 
+    std::string_view text_;
     std::vector<std::set<std::string>> keys_;
+    int depth_ = 0;
     size_t values_ = 0;
 };
 
@@ -74,13 +124,9 @@ class limits
 
 json json_parse(std::string_view text)
 {
-    try {
-        return json::parse(text.begin(), text.end(), limits());
-    } catch (const json::parse_error &e) {
-        throw file_error(place_of(text, e.byte > 0 ? e.byte - 1 : 0), "found text that is not JSON");
-    } catch (const json::out_of_range &) {
-        throw file_error("", "found a number beyond the range of a double; numbers must be finite");
-    }
+    checker check(text);
+    json::sax_parse(text.begin(), text.end(), &check);
+    return json::parse(text.begin(), text.end());
 }
 
 std::string json_pointer(const std::string &parent, const std::string &key)

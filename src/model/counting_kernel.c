@@ -20,6 +20,11 @@
 /* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
 #define LEAST_COUNT 1e-20F
 
+/* A pixel well inside one facet sees it lit or not: variance (1 - p) / p. The blending over cells leaves half of the
+ * variance of a count, so the cells have half of a facet's area. Over a large patch the size of the cells does not
+ * matter. */
+#define FACET_SHARE 0.5F
+
 /* One facet on a square of a thousand kilometres: sparser than that counts as that. */
 #define LEAST_DENSITY 1e-12F
 #define LEAST_AREA 1e-30F
@@ -105,7 +110,7 @@ void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t c
         const vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
         const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
         const vfloat density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
-        const grid_ellipse ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, 1.0F / density);
+        const grid_ellipse ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, FACET_SHARE / density);
         const grid_point grid =
             grid_locate(load_d(points->u + i), load_d(points->v + i), &ellipse, load_u(points->seed + i));
         const vfloat f = lit_factor(&grid, ellipse.area * density, load_f(points->hx + i), load_f(points->hy + i),

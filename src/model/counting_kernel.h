@@ -16,8 +16,9 @@ typedef struct counting_points {
     const float *p;                         /* lit probability, at most 1 */
 } counting_points;
 
-/* factor = b(N', p) / (N' p), blended over grids and cells, 1 in the smooth limit; facets = N. N' counts the facets
- * that touch the pixel: N + 1 for a round one. count is a multiple of the width. Every width gives the same bits. */
+/* factor = b(N', p) / (N' p), blended over grids and cells, 1 in the smooth limit; facets = N. N' is N for a pixel of
+ * many facets, and one half for a pixel within one. count is a multiple of the width. Every width gives the same bits.
+ */
 typedef void counting_kernel(const counting_points *points, size_t count, float *factor, float *facets);
 
 counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;

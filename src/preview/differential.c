@@ -54,7 +54,7 @@ void differential_widen(differential *d, vec3 direction, double solid_angle_sr)
 double differential_half_vector_variance(const differential *d, const surface_step *normal_step)
 {
     /* A box of width w has the variance w^2 / 12; the mean of the two axes. */
-    const vec3 dx = v3_mad(normal_step->dx, d->direction_dx, -0.5);
-    const vec3 dy = v3_mad(normal_step->dy, d->direction_dy, -0.5);
+    const vec3 dx = v3_mad(normal_step->dx, d->direction_dx, 0.5);
+    const vec3 dy = v3_mad(normal_step->dy, d->direction_dy, 0.5);
     return (v3_dot(dx, dx) + v3_dot(dy, dy)) / 24.0;
 }

@@ -33,9 +33,9 @@ differential differential_reflect(const differential *d, vec3 direction, vec3 no
  * carries, it takes the place of d's spread; direction is the drawn one. */
 void differential_widen(differential *d, vec3 direction, double solid_angle_sr);
 
-/* Variance of the slope of the half vector, per axis, over the parallelogram of directions and places that d stands
- * for, under one light far away. Half of it is what turns the viewer, the other half what turns the surface: h ~ n + wo
- * / 2. */
+/* Variance of the slope of the half vector over the surface, per axis, within the parallelogram of directions and
+ * places that d stands for, under one light far away: the viewer turns by -d and turns h by half of it, the surface
+ * turns by n. */
 double differential_half_vector_variance(const differential *d, const surface_step *normal_step);
 
 #endif

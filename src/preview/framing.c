@@ -8,17 +8,6 @@
 #define YFOV_RAD 0.5
 #define MARGIN 1.05
 
-static void set_axes(scene_camera *camera, vec3 right, vec3 up, vec3 backward, vec3 origin)
-{
-    const vec3 columns[4] = { right, up, backward, origin };
-    for (int c = 0; c < 4; ++c) {
-        camera->to_world[4 * c] = (float)columns[c].x;
-        camera->to_world[4 * c + 1] = (float)columns[c].y;
-        camera->to_world[4 * c + 2] = (float)columns[c].z;
-        camera->to_world[4 * c + 3] = c == 3 ? 1.0F : 0.0F;
-    }
-}
-
 scene_camera preview_framed_camera(const scene *s, int width, int height)
 {
     vec3 low = v3_from(s->bounds_min);
@@ -48,6 +37,6 @@ scene_camera preview_framed_camera(const scene *s, int width, int height)
         distance = 4.0 * radius;
 
     scene_camera camera = { .projection = SCENE_PERSPECTIVE, .yfov_rad = (float)YFOV_RAD };
-    set_axes(&camera, right, up, backward, v3_mad(centre, backward, distance));
+    m4_from_axes(right, up, backward, v3_mad(centre, backward, distance), camera.to_world);
     return camera;
 }

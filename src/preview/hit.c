@@ -7,12 +7,18 @@ static double interpolate(double a, double b, double c, const double w[2])
     return a + (b - a) * w[0] + (c - a) * w[1];
 }
 
-static vec3 corner_vector(const hit *h, const float *values, int stride, int corner)
+/* The values of a corner in an array of the mesh. */
+static const float *at_corner(const hit *h, const float *values, size_t stride, int corner)
 {
-    return v3_from(&values[(size_t)stride * h->corners.index[corner]]);
+    return &values[stride * h->corners.index[corner]];
 }
 
-static vec3 interpolate_vector(const hit *h, const float *values, int stride)
+static vec3 corner_vector(const hit *h, const float *values, size_t stride, int corner)
+{
+    return v3_from(at_corner(h, values, stride, corner));
+}
+
+static vec3 interpolate_vector(const hit *h, const float *values, size_t stride)
 {
     const vec3 a = corner_vector(h, values, stride, 0);
     const vec3 b = corner_vector(h, values, stride, 1);
@@ -43,7 +49,7 @@ static void resolve_tangent(hit *h)
     double handedness = 1.0;
     if (h->mesh->tangent != NULL) {
         along = v3_reject(m4_vector(h->placed->to_world, interpolate_vector(h, h->mesh->tangent, 4)), h->normal);
-        handedness = h->mesh->tangent[4U * h->corners.index[0] + 3U] < 0.0F ? -1.0 : 1.0;
+        handedness = at_corner(h, h->mesh->tangent, 4, 0)[3] < 0.0F ? -1.0 : 1.0;
     }
     h->tangent = v3_dot(along, along) > 0.0 ? v3_normalize(along) : v3_any_tangent(h->normal);
     /* A mirroring node swaps right and left, and the bitangent follows the texture on the mesh. */
@@ -52,22 +58,23 @@ static void resolve_tangent(hit *h)
     h->bitangent = v3_scale(v3_cross(h->normal, h->tangent), mirrored < 0.0 ? -handedness : handedness);
 }
 
+/* One of the values that the mesh has a vertex. */
+static double interpolate_value(const hit *h, const float *values, size_t stride, int k)
+{
+    return interpolate((double)at_corner(h, values, stride, 0)[k], (double)at_corner(h, values, stride, 1)[k],
+                       (double)at_corner(h, values, stride, 2)[k], h->weights);
+}
+
 static void resolve_attributes(hit *h)
 {
-    const uint32_t *const i = h->corners.index;
+    const float *const color = h->mesh->color;
     for (int set = 0; set < 2; ++set) {
         const float *const st = h->mesh->texcoord[set];
         for (int k = 0; k < 2; ++k)
-            h->texcoord[set][k] =
-                st == NULL ? 0.0
-                           : interpolate((double)st[2U * i[0] + (size_t)k], (double)st[2U * i[1] + (size_t)k],
-                                         (double)st[2U * i[2] + (size_t)k], h->weights);
+            h->texcoord[set][k] = st == NULL ? 0.0 : interpolate_value(h, st, 2, k);
     }
-    const float *const color = h->mesh->color;
-    for (size_t k = 0; k < 4; ++k)
-        h->color[k] = color == NULL ? 1.0F
-                                    : (float)interpolate((double)color[4U * i[0] + k], (double)color[4U * i[1] + k],
-                                                         (double)color[4U * i[2] + k], h->weights);
+    for (int k = 0; k < 4; ++k)
+        h->color[k] = color == NULL ? 1.0F : (float)interpolate_value(h, color, 4, k);
 }
 
 /* The mean of the projections of the point onto the tangent planes of the corners, where those lie outside: keeps the
@@ -162,14 +169,13 @@ hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction)
 void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2], double dy[2])
 {
     const float *const st = h->mesh->texcoord[set];
-    for (size_t k = 0; k < 2; ++k) {
+    for (int k = 0; k < 2; ++k) {
         if (st == NULL) {
             dx[k] = dy[k] = 0.0;
             continue;
         }
-        const double a = (double)st[2U * h->corners.index[0] + k];
-        const double along[2] = { (double)st[2U * h->corners.index[1] + k] - a,
-                                  (double)st[2U * h->corners.index[2] + k] - a };
+        const double a = (double)at_corner(h, st, 2, 0)[k];
+        const double along[2] = { (double)at_corner(h, st, 2, 1)[k] - a, (double)at_corner(h, st, 2, 2)[k] - a };
         dx[k] = along[0] * step->weights_dx[0] + along[1] * step->weights_dx[1];
         dy[k] = along[0] * step->weights_dy[0] + along[1] * step->weights_dy[1];
     }

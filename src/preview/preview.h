@@ -46,9 +46,10 @@ typedef struct preview_statistics {
 
 /* Renders into *out, which has the size of the tile.
  *
- * Pixels are scene-linear. The bits depend on the scene, the options and nothing else: not on the number of threads,
- * the tile or the machine. A scene without a camera gets a framed one; without lights, and where the options bring no
- * sky, a lookdev rig and its sky.
+ * Pixels are scene-linear. The bits depend on the scene and the options, not on the number of threads or the tile.
+ * Another machine gives the same bits but for the last ones of libm's sin, cos and tan, and for a ray in a million that
+ * meets an edge between two triangles. A scene without a camera gets a framed one; without lights, and where the
+ * options bring no sky, a lookdev rig and its sky.
  *
  * Channels: R G B A, with RGB multiplied by A. With aov also, all as means over the samples of the pixel:
  *   smooth.R/G/B    the same picture, sample by sample, without discreteness

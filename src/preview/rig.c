@@ -39,17 +39,11 @@ void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])
         const vec3 heading = v3_mad(v3_scale(towards_camera, cos(from->azimuth)), right, sin(from->azimuth));
         const vec3 z = v3_mad(v3_scale(heading, cos(from->elevation)), up, sin(from->elevation));
         const vec3 x = v3_normalize(v3_cross(up, z));
-        const vec3 axes[3] = { x, v3_cross(z, x), z };
         lights[i] = (scene_light){ .kind = SCENE_LIGHT_DIRECTIONAL,
                                    .color = { from->color[0], from->color[1], from->color[2] },
                                    .intensity = from->intensity,
                                    .angular_diameter_rad = from->angular_diameter };
-        for (int c = 0; c < 3; ++c) {
-            lights[i].to_world[4 * c] = (float)axes[c].x;
-            lights[i].to_world[4 * c + 1] = (float)axes[c].y;
-            lights[i].to_world[4 * c + 2] = (float)axes[c].z;
-        }
-        lights[i].to_world[15] = 1.0F;
+        m4_from_axes(x, v3_cross(z, x), z, v3(0.0, 0.0, 0.0), lights[i].to_world);
     }
 }
 

@@ -7,7 +7,7 @@
 #include "preview/hash.h"
 
 /* Embree's builder cuts its work by the number of its threads, and with it the order of coincident triangles. A fixed
- * number gives the same picture with any number of render threads, on any machine. */
+ * number gives the same picture with any number of render threads. */
 #define BUILD_CONFIGURATION "threads=4"
 
 typedef struct mesh_geometry {

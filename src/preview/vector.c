@@ -1,4 +1,4 @@
-/* Inverts affine transforms by cofactors. */
+/* Affine transforms: from axes to a matrix, and a matrix inverted by cofactors. */
 #include "preview/vector.h"
 
 bool m4_invert_affine(const double m[16], double inverse[16])
@@ -25,4 +25,15 @@ bool m4_invert_affine(const double m[16], double inverse[16])
     }
     inverse[15] = 1.0;
     return true;
+}
+
+void m4_from_axes(vec3 x, vec3 y, vec3 z, vec3 origin, float m[16])
+{
+    const vec3 columns[4] = { x, y, z, origin };
+    for (size_t c = 0; c < 4; ++c) {
+        m[4 * c] = (float)columns[c].x;
+        m[4 * c + 1] = (float)columns[c].y;
+        m[4 * c + 2] = (float)columns[c].z;
+        m[4 * c + 3] = c == 3 ? 1.0F : 0.0F;
+    }
 }

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #define PREVIEW_PI 3.14159265358979323846
 
@@ -97,7 +98,8 @@ static inline vec3 m4_transposed_vector(const double m[16], vec3 d)
 
 static inline vec3 m4_column(const double m[16], int column)
 {
-    return v3(m[4 * column], m[4 * column + 1], m[4 * column + 2]);
+    const double *const c = m + (ptrdiff_t)4 * column;
+    return v3(c[0], c[1], c[2]);
 }
 
 /* A unit vector perpendicular to the unit vector n, continuous but for n.z = 0: Duff et al. 2017, "Building an
@@ -111,5 +113,8 @@ static inline vec3 v3_any_tangent(vec3 n)
 
 /* Inverse of an affine matrix; false when it flattens space. */
 bool m4_invert_affine(const double m[16], double inverse[16]);
+
+/* The column-major matrix, as a scene has it, of a node with these axes at this place. */
+void m4_from_axes(vec3 x, vec3 y, vec3 z, vec3 origin, float m[16]);
 
 #endif

@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 typedef struct report {
-    char error[1024];                            /* empty: no error */
-    void (*warn)(const char *text, void *user);  /* NULL: warnings are dropped */
+    char error[1024];                           /* empty: no error */
+    void (*warn)(const char *text, void *user); /* NULL: warnings are dropped */
     void *user;
 } report;
 

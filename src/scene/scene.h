@@ -30,13 +30,13 @@ typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR
 
 /* One use of an image: sampler, KHR_texture_transform and the factor that belongs to the kind of texture. */
 typedef struct scene_texture {
-    int image;           /* SCENE_NONE: no texture */
-    int texcoord;        /* 0 or 1 */
+    int image;    /* SCENE_NONE: no texture */
+    int texcoord; /* 0 or 1 */
     scene_wrap wrap_s, wrap_t;
-    bool nearest;        /* the sampler asks for unfiltered texels */
-    bool srgb;           /* colours: decode before filtering */
+    bool nearest; /* the sampler asks for unfiltered texels */
+    bool srgb;    /* colours: decode before filtering */
     float offset[2], rotation, scale[2];
-    float strength;      /* normalTexture.scale, occlusionTexture.strength; else 1 */
+    float strength; /* normalTexture.scale, occlusionTexture.strength; else 1 */
 } scene_texture;
 
 typedef enum scene_alpha_mode { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha_mode;
@@ -49,7 +49,7 @@ typedef enum scene_glint_placement { SCENE_PLACEMENT_TILED, SCENE_PLACEMENT_SCAT
 typedef struct scene_glint {
     bool present;
     float factor;
-    scene_texture texture;         /* R multiplies factor */
+    scene_texture texture; /* R multiplies factor */
     glint_distribution distribution;
     float density;                 /* facets per m^2 */
     scene_texture density_texture; /* G multiplies density */
@@ -62,13 +62,13 @@ typedef struct scene_glint {
     float density_variation;
     scene_glint_space space;
     int texcoord;
-    float uv_scale;                /* metres per UV unit */
+    float uv_scale; /* metres per UV unit */
     scene_glint_layer layer;
     uint32_t seed;
     scene_glint_structure structure;
     scene_texture example_texture;
     scene_glint_placement example_placement;
-    float example_size;            /* metres */
+    float example_size; /* metres */
 } scene_glint;
 
 typedef struct scene_material {
@@ -78,12 +78,12 @@ typedef struct scene_material {
     float metallic, roughness;
     scene_texture metallic_roughness_texture; /* G roughness, B metallic */
     scene_texture normal_texture, occlusion_texture, emissive_texture;
-    float emissive[3];             /* KHR_materials_emissive_strength multiplied in */
+    float emissive[3]; /* KHR_materials_emissive_strength multiplied in */
     scene_alpha_mode alpha_mode;
     float alpha_cutoff;
     bool double_sided;
     bool unlit;
-    float ior;                     /* 1.5; 0 means the Fresnel term is 1 (KHR_materials_ior) */
+    float ior; /* 1.5; 0 means the Fresnel term is 1 (KHR_materials_ior) */
     float specular, specular_color[3];
     scene_texture specular_texture, specular_color_texture; /* A; RGB */
     float anisotropy, anisotropy_rotation;
@@ -107,10 +107,10 @@ typedef struct scene_mesh {
 } scene_mesh;
 
 typedef struct scene_instance {
-    char *name;     /* of the node; may be empty */
+    char *name; /* of the node; may be empty */
     int mesh;
     float to_world[16];
-    int node;       /* of the file: instances of one node share the seed offset */
+    int node; /* of the file: instances of one node share the seed offset */
 } scene_instance;
 
 typedef enum scene_projection { SCENE_PERSPECTIVE, SCENE_ORTHOGRAPHIC } scene_projection;
@@ -118,9 +118,9 @@ typedef enum scene_projection { SCENE_PERSPECTIVE, SCENE_ORTHOGRAPHIC } scene_pr
 typedef struct scene_camera {
     char *name;
     scene_projection projection;
-    float yfov_rad;  /* perspective */
-    float aspect;    /* width over height; 0: that of the picture */
-    float xmag, ymag; /* orthographic: half width and half height in metres */
+    float yfov_rad;    /* perspective */
+    float aspect;      /* width over height; 0: that of the picture */
+    float xmag, ymag;  /* orthographic: half width and half height in metres */
     float znear, zfar; /* zfar 0: none */
     float to_world[16];
 } scene_camera;
@@ -132,10 +132,10 @@ typedef struct scene_light {
     char *name;
     scene_light_kind kind;
     float color[3], intensity;
-    float range;                  /* metres; 0: unlimited */
+    float range; /* metres; 0: unlimited */
     float inner_cone_rad, outer_cone_rad;
-    float angular_diameter_rad;   /* directional: extras.angularDiameter (rad), default the sun's, .00929 */
-    float radius_m;               /* point and spot: extras.radius (m), default .01 */
+    float angular_diameter_rad; /* directional: extras.angularDiameter (rad), default the sun's, .00929 */
+    float radius_m;             /* point and spot: extras.radius (m), default .01 */
     float to_world[16];
 } scene_light;
 

@@ -21,7 +21,8 @@ typedef struct scene_texels {
 /* The material's own factors: what every texel is multiplied with. */
 scene_texels scene_texels_of(const scene_material *m);
 
-/* The base layer at a point: metallic-roughness with KHR_materials_specular, _ior and _anisotropy (glTF 2.0 appendix B). */
+/* The base layer at a point: metallic-roughness with KHR_materials_specular, _ior and _anisotropy (glTF 2.0 appendix
+ * B). */
 glint_surface scene_base_surface(const scene_material *m, const scene_texels *t);
 /* The clear coat at a point: a dielectric of ior 1.5 over the base (KHR_materials_clearcoat), without its weight. */
 glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t);

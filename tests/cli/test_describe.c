@@ -41,6 +41,7 @@ static void inspect_names_what_is_in_the_file(void **state)
     o = glint_run(NULL, "inspect", "--json", "plane.gltf");
     json_t *d = document_of(&o);
     assert_true(json_is_object(d));
+    assert_says(o.out, "panel");
     json_decref(d);
     outcome_free(&o);
 }

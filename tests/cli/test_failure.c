@@ -173,6 +173,9 @@ static void interrupt_leaves_the_old_picture(void **state)
 static void picture_that_memory_cannot_hold_is_an_error(void **state)
 {
     (void)state;
+    /* 2^32 pixels of at least 16 bytes; a machine that can hold them would start to render them. */
+    if ((double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) > 16.0 * 4294967296.0)
+        skip();
     assert_refused(glint_run(NULL, "render", "plane.gltf", "-o", "old.exr", "--size", "65536x65536", "--aov"), 1,
                    "memory");
     assert_file_holds("old.exr", "old");

@@ -1,11 +1,13 @@
 /* glint render as a user runs it: the same bytes from any number of threads, one JSON document, and pictures that are
  * whole. */
+#include <pty.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -263,6 +265,39 @@ static void log_without_a_terminal_stays_plain(void **state)
     outcome_free(&o);
 }
 
+/* Everything that the command writes to a terminal of its own. */
+static void read_terminal(int terminal, char *text, size_t size)
+{
+    size_t length = 0;
+    /* Linux ends the reading of a terminal that nobody has open any more with EIO. */
+    for (ssize_t got; length + 1 < size && (got = read(terminal, text + length, size - 1 - length)) > 0;)
+        length += (size_t)got;
+    text[length] = '\0';
+}
+
+static void terminal_shows_a_bar_and_then_the_result(void **state)
+{
+    (void)state;
+    int terminal;
+    const struct winsize window = { .ws_row = 24, .ws_col = 100 };
+    const pid_t child = forkpty(&terminal, NULL, NULL, &window);
+    assert_true(child >= 0);
+    if (child == 0) {
+        execl(GLINT_COMMAND, "glint", "render", "plane.gltf", "-o", "a.exr", SMALL, (char *)NULL);
+        _exit(1);
+    }
+    char text[65536];
+    read_terminal(terminal, text, sizeof text);
+    close(terminal);
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    assert_says(text, "\r\033[K[");
+    assert_says(text, " %, 0:0");
+    assert_says(text, " elapsed");
+    assert_says(text, "\r\033[Ka.exr: 48x32, 4 spp, ");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +313,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(file_names_may_hold_anything, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(options_may_follow_and_precede_the_scene, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(log_without_a_terminal_stays_plain, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(terminal_shows_a_bar_and_then_the_result, enter, workplace_leave),
     };
     return cmocka_run_group_tests_name("render", tests, NULL, NULL);
 }

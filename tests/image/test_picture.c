@@ -217,6 +217,29 @@ static void the_same_picture_gives_the_same_bytes_at_any_time(void **state)
     image_free(&i);
 }
 
+/* A header may claim any size; 2^14 x 2^29 pixels of three floats are more than any memory. */
+static void an_absurd_size_in_a_file_is_an_error_that_names_it(void **state)
+{
+    static const char *const rgb[] = { "R", "G", "B" };
+    static const uint8_t last_pixel[8] = { 0xFF, 0x3F, 0, 0, 0xFF, 0xFF, 0xFF, 0x1F };
+    const char *path = folder_path(*state, "out.exr");
+    image i = picture_with(2, 2, rgb, 3);
+    report r = { 0 };
+    assert_true(image_write_exr(path, &i, NULL, 0, &r));
+    bytes file = file_read(path);
+    static const char name[] = "dataWindow\0box2i"; /* then a length of 4 bytes, and the first pixel in 8 */
+    for (size_t k = 0; k + sizeof name + 20 <= file.size; k++)
+        if (memcmp(file.data + k, name, sizeof name) == 0)
+            memcpy(file.data + k + sizeof name + 12, last_pixel, sizeof last_pixel);
+    file_write(path, file.data, file.size);
+    image in;
+    assert_false(image_read(path, &in, &r));
+    assert_non_null(strstr(r.error, path));
+    assert_null(in.pixels);
+    free(file.data);
+    image_free(&i);
+}
+
 static void unreadable_pictures_are_errors_that_name_the_file(void **state)
 {
     static const char *const rgb[] = { "R", "G", "B" };
@@ -259,6 +282,7 @@ int main(void)
         IN_A_FOLDER(a_png_shows_light_as_srgb_codes),
         IN_A_FOLDER(a_png_stores_straight_alpha),
         IN_A_FOLDER(the_same_picture_gives_the_same_bytes_at_any_time),
+        IN_A_FOLDER(an_absurd_size_in_a_file_is_an_error_that_names_it),
         IN_A_FOLDER(unreadable_pictures_are_errors_that_name_the_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

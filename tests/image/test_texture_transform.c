@@ -41,6 +41,19 @@ static void the_example_of_the_extension_shows_the_lower_left_quarter(void **sta
     }
 }
 
+/* Khronos' TextureTransformTest (in assimp-testmodels): the arrow runs down the diagonal of its picture, and where the
+ * turn by 22.5 degrees is right it points at the mark "Correct", at this place of the plane around (0.5, 0.5), v
+ * downwards. */
+static void the_arrow_of_the_khronos_test_points_at_its_mark(void **state)
+{
+    (void)state;
+    const scene_texture which = transformed(0.0F, 0.0F, 0.39269908169872414F, 1.0F, 1.0F);
+    const texture_point mark = at(0.5F - 0.07904822439840126F, 0.5F + 0.5162674857624154F);
+    const texture_point p = texture_transform(&which, &mark);
+    assert_true(p.s > 0.7F);
+    assert_float_equal(p.s, p.t, 4e-7F); /* the coordinates of the mark, the angle and the results are floats below 2 */
+}
+
 typedef struct matrix3 {
     double m[3][3];
 } matrix3;
@@ -157,6 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_example_of_the_extension_shows_the_lower_left_quarter),
+        cmocka_unit_test(the_arrow_of_the_khronos_test_points_at_its_mark),
         cmocka_unit_test(points_and_derivatives_follow_the_matrix),
         cmocka_unit_test(a_far_offset_does_not_move_texels),
         cmocka_unit_test(repeated_points_stay_below_the_end_of_the_period),

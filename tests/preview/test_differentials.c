@@ -148,6 +148,31 @@ static void a_drawn_direction_takes_the_spread_that_it_stands_for(void **state)
     assert_true(fabs(v3_dot(d.direction_dx, direction)) < 1e-12 && fabs(v3_dot(d.direction_dy, direction)) < 1e-12);
 }
 
+/* The half vector between a light straight above and viewers spread evenly over a parallelogram, on a surface that
+ * turns under them: the variance of its slope against the surface's normal by adding up a grid. Steps of 0.02 make the
+ * half vector a linear function of them to 1e-4. */
+static void the_half_vector_varies_as_a_grid_of_viewers_says(void **state)
+{
+    (void)state;
+    enum { GRID = 50 };
+    const vec3 zero = v3(0.0, 0.0, 0.0), light = v3(0.0, 0.0, 1.0);
+    const vec3 view_dx = v3(0.02, 0.005, 0.0), view_dy = v3(-0.004, 0.01, 0.0);
+    const differential d = { zero, zero, v3_scale(view_dx, -1.0), v3_scale(view_dy, -1.0) }; /* of the ray towards us */
+    const surface_step turn = { v3(0.003, 0.0, 0.0), v3(0.0, -0.008, 0.0) };
+    double squares = 0.0;
+    for (int i = 0; i < GRID * GRID; ++i) {
+        const int column = i % GRID, row = i / GRID;
+        const double a = (column + 0.5) / GRID - 0.5, b = (row + 0.5) / GRID - 0.5;
+        const vec3 wo = v3_normalize(v3_mad(v3_mad(light, view_dx, a), view_dy, b));
+        const vec3 n = v3_normalize(v3_mad(v3_mad(light, turn.dx, a), turn.dy, b));
+        const vec3 h = v3_normalize(v3_add(wo, light));
+        const double x = h.x / h.z - n.x / n.z, y = h.y / h.z - n.y / n.z;
+        squares += (x * x + y * y) / (2.0 * GRID * GRID);
+    }
+    const double variance = differential_half_vector_variance(&d, &turn);
+    assert_true(fabs(variance - squares) < 1e-3 * squares);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +181,7 @@ int main(void)
         cmocka_unit_test(a_flat_mirror_keeps_the_spread),
         cmocka_unit_test(a_plane_seen_edge_on_gives_finite_steps),
         cmocka_unit_test(a_drawn_direction_takes_the_spread_that_it_stands_for),
+        cmocka_unit_test(the_half_vector_varies_as_a_grid_of_viewers_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

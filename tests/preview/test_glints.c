@@ -172,6 +172,26 @@ static void contrast_falls_as_the_root_of_the_density(void **state)
         fail_msg("the contrast falls by %.3g, not by 8", ratio);
 }
 
+/* Texture coordinates that stand still, normals of length zero: no number of facets can be said, the smooth limit can.
+ */
+static void degenerate_meshes_give_the_smooth_picture(void **state)
+{
+    (void)state;
+    scene s = flaky_floor(3200.0F);
+    const scene_camera c = pictures_from_above(1.0F);
+    const preview_options o = pictures_options(&c);
+    memset(s.meshes[0].texcoord[0], 0, 8 * sizeof(float));
+    memset(s.meshes[0].normal, 0, 12 * sizeof(float));
+    memset(s.meshes[0].tangent, 0, 16 * sizeof(float));
+    image i = pictures_render(&s, &o);
+    for (int k = 0; k < 256; ++k) {
+        assert_true(pictures_at(&i, "smooth.G", k % 16, k / 16) > 0.0);
+        assert_true(pictures_at(&i, "G", k % 16, k / 16) == pictures_at(&i, "smooth.G", k % 16, k / 16));
+    }
+    image_free(&i);
+    scene_free(&s);
+}
+
 static void nodes_sparkle_apart(void **state)
 {
     (void)state;
@@ -198,6 +218,7 @@ int main(void)
         cmocka_unit_test(the_number_of_facets_is_density_times_area),
         cmocka_unit_test(a_mesh_without_the_texture_coordinates_of_its_glints_is_warned_of),
         cmocka_unit_test(contrast_falls_as_the_root_of_the_density),
+        cmocka_unit_test(degenerate_meshes_give_the_smooth_picture),
         cmocka_unit_test(nodes_sparkle_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

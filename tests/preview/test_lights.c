@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "pictures.h"
 #include "preview/light.h"
 #include "preview/rig.h"
 #include "scenes.h"
@@ -85,7 +86,8 @@ static void shadow_rays_cover_the_light_evenly(void **state)
     double cosine = 0.0, squared_radius = 0.0;
     vec3 sum = here;
     for (int i = 0; i < 64 * 64; ++i) {
-        const double u[2] = { (i % 64 + 0.5) / 64.0, ((double)(i / 64) + 0.5) / 64.0 };
+        const int column = i % 64, row = i / 64;
+        const double u[2] = { (column + 0.5) / 64.0, (row + 0.5) / 64.0 };
         vec3 direction;
         double distance;
         light_pick(&sun, &sun_view, here, u, &direction, &distance);
@@ -123,6 +125,35 @@ static void the_rig_stands_around_the_camera(void **state)
     }
 }
 
+/* A scene without lights, and the same with the rig in it and its sky around it, are one picture. */
+static void the_rig_can_be_put_into_the_scene(void **state)
+{
+    (void)state;
+    const scene_material matte = scenes_matte(0.5F);
+    scene s = scenes_empty();
+    scenes_add_instance(&s, scenes_add_sphere(&s, scenes_add_material(&s, &matte), 1.0F, 24, 12), NULL, 0);
+    preview_options o = pictures_options(NULL);
+    o.sky = NULL;
+    image studio = pictures_render(&s, &o);
+    report r = { 0 };
+    assert_true(preview_add_lookdev_rig(&s, &r));
+    assert_int_equal(s.light_count, RIG_LIGHT_COUNT);
+    for (int k = 0; k < RIG_LIGHT_COUNT; ++k)
+        assert_non_null(s.lights[k].name);
+    const preview_sky sky = rig_sky();
+    o.sky = &sky;
+    image added = pictures_render(&s, &o);
+    assert_memory_equal(studio.pixels, added.pixels, sizeof(float) * 16 * 16 * (size_t)studio.channel_count);
+    o.sky = NULL; /* now that there are lights, there is no sky */
+    image lights_only = pictures_render(&s, &o);
+    assert_true(pictures_mean(&lights_only, "R") < pictures_mean(&added, "R"));
+    assert_true(pictures_at(&lights_only, "A", 0, 0) == 0.0);
+    image_free(&studio);
+    image_free(&added);
+    image_free(&lights_only);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -132,6 +163,7 @@ int main(void)
         cmocka_unit_test(a_light_without_size_still_has_a_solid_angle),
         cmocka_unit_test(shadow_rays_cover_the_light_evenly),
         cmocka_unit_test(the_rig_stands_around_the_camera),
+        cmocka_unit_test(the_rig_can_be_put_into_the_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

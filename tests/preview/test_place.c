@@ -39,7 +39,8 @@ static void each_hit(const scene *s, void (*check)(const hit *h, const hit_step 
         trace_ray ray;
         differential d;
         hit h;
-        camera_ray(&c, i % 32 + 0.4, (double)(i / 32) + 0.6, &ray, &d);
+        const int column = i % 32, row = i / 32;
+        camera_ray(&c, column + 0.4, row + 0.6, &ray, &d);
         if (!traced_hit(&t, &ray, &h))
             continue;
         const hit_step step = hit_differentiate(&h, &d, ray.direction);

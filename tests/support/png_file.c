@@ -1,95 +1,112 @@
-/* The least PNG: one chunk of pixels in one block that is not compressed. */
+/* The PNG text (ISO/IEC 15948) with stored deflate blocks (RFC 1951) in a zlib frame (RFC 1950) needs no library. */
 #include "png_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void *checked(void *memory)
+static void append(bytes *b, const void *data, size_t size)
 {
-    if (memory == NULL) {
+    b->data = realloc(b->data, b->size + size + 1);
+    if (!b->data) {
         fputs("png_file: no memory\n", stderr);
         abort();
     }
-    return memory;
+    if (size)
+        memcpy(b->data + b->size, data, size);
+    b->size += size;
 }
 
-typedef struct bytes {
-    uint8_t *data;
-    size_t count;
-} bytes;
-
-static void put(bytes *b, const void *data, size_t count)
+static void append_u32(bytes *b, uint32_t value)
 {
-    b->data = checked(realloc(b->data, b->count + count));
-    memcpy(b->data + b->count, data, count);
-    b->count += count;
+    const uint8_t big_endian[4] = { (uint8_t)(value >> 24), (uint8_t)(value >> 16), (uint8_t)(value >> 8),
+                                    (uint8_t)value };
+    append(b, big_endian, 4);
 }
 
-static void put_u32(bytes *b, uint32_t v)
+static uint32_t crc32_of(const uint8_t *data, size_t size)
 {
-    const uint8_t big[4] = { (uint8_t)(v >> 24), (uint8_t)(v >> 16), (uint8_t)(v >> 8), (uint8_t)v };
-    put(b, big, sizeof big);
-}
-
-static uint32_t crc32_of(const uint8_t *data, size_t count)
-{
-    uint32_t crc = 0xffffffffU;
-    for (size_t i = 0; i < count; ++i) {
+    uint32_t crc = 0xFFFFFFFFU;
+    for (size_t i = 0; i < size; i++) {
         crc ^= data[i];
-        for (int k = 0; k < 8; ++k)
-            crc = (crc >> 1) ^ ((crc & 1U) ? 0xedb88320U : 0U);
+        for (int k = 0; k < 8; k++)
+            crc = (crc >> 1) ^ (crc & 1U ? 0xEDB88320U : 0U);
     }
     return ~crc;
 }
 
-static void put_chunk(bytes *png, const char *type, const bytes *content)
+static void append_chunk(bytes *b, const char *type, const bytes *content)
 {
-    put_u32(png, (uint32_t)content->count);
-    const size_t start = png->count;
-    put(png, type, 4);
-    if (content->count > 0)
-        put(png, content->data, content->count);
-    put_u32(png, crc32_of(png->data + start, png->count - start));
+    append_u32(b, (uint32_t)content->size);
+    const size_t start = b->size;
+    append(b, type, 4);
+    append(b, content->data, content->size);
+    append_u32(b, crc32_of(b->data + start, b->size - start));
 }
 
-/* One stored block (RFC 1951, 3.2.4) of at most 65535 bytes in a zlib frame (RFC 1950). */
-static bytes stored(const bytes *raw)
+static bytes zlib_stored(const bytes *raw)
 {
     bytes z = { 0 };
-    const uint16_t n = (uint16_t)raw->count;
-    const uint8_t head[7] = { 0x78, 0x01, 0x01, (uint8_t)n, (uint8_t)(n >> 8), (uint8_t)~n, (uint8_t)(~n >> 8) };
-    put(&z, head, sizeof head);
-    put(&z, raw->data, raw->count);
-    uint32_t a = 1, b = 0;
-    for (size_t i = 0; i < raw->count; ++i) {
-        a = (a + raw->data[i]) % 65521U;
-        b = (b + a) % 65521U;
-    }
-    put_u32(&z, (b << 16) | a);
+    append(&z, "\x78\x01", 2);
+    uint32_t a = 1;
+    uint32_t s = 0;
+    size_t done = 0;
+    do {
+        const size_t left = raw->size - done;
+        const size_t n = left < 65535 ? left : 65535;
+        const uint8_t block[5] = { n == left, (uint8_t)n, (uint8_t)(n >> 8), (uint8_t)~n, (uint8_t)(~n >> 8) };
+        append(&z, block, 5);
+        append(&z, raw->data + done, n);
+        for (size_t i = 0; i < n; i++) {
+            a = (a + raw->data[done + i]) % 65521U;
+            s = (s + a) % 65521U;
+        }
+        done += n;
+    } while (done < raw->size);
+    append_u32(&z, s << 16 | a);
     return z;
+}
+
+static bytes png_start(uint32_t width, uint32_t height, int bit_depth, int color_type)
+{
+    bytes png = { 0 };
+    bytes header = { 0 };
+    append(&png, "\x89PNG\r\n\x1a\n", 8);
+    append_u32(&header, width);
+    append_u32(&header, height);
+    const uint8_t rest[5] = { (uint8_t)bit_depth, (uint8_t)color_type, 0, 0, 0 };
+    append(&header, rest, 5);
+    append_chunk(&png, "IHDR", &header);
+    free(header.data);
+    return png;
+}
+
+bytes png_header(uint32_t width, uint32_t height)
+{
+    return png_start(width, height, 8, PNG_RGB);
+}
+
+bytes png_make(uint32_t width, uint32_t height, int bit_depth, int color_type, const uint8_t *samples)
+{
+    static const size_t channel_counts[7] = { 1, 0, 3, 0, 2, 0, 4 };
+    const size_t row_size = width * channel_counts[color_type] * (size_t)bit_depth / 8;
+    bytes raw = { 0 };
+    for (uint32_t y = 0; y < height; y++) {
+        append(&raw, "", 1); /* the row's filter: none */
+        append(&raw, samples + y * row_size, row_size);
+    }
+    bytes png = png_start(width, height, bit_depth, color_type);
+    bytes z = zlib_stored(&raw);
+    append_chunk(&png, "IDAT", &z);
+    append_chunk(&png, "IEND", &(bytes){ 0 });
+    free(raw.data);
+    free(z.data);
+    return png;
 }
 
 uint8_t *png_file(const uint8_t *rgba, int width, int height, size_t *byte_count)
 {
-    static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-    static const uint8_t depth8_rgba[5] = { 8, 6, 0, 0, 0 };
-    bytes png = { 0 }, header = { 0 }, raw = { 0 }, none = { 0 };
-    put(&png, signature, sizeof signature);
-    put_u32(&header, (uint32_t)width);
-    put_u32(&header, (uint32_t)height);
-    put(&header, depth8_rgba, sizeof depth8_rgba);
-    put_chunk(&png, "IHDR", &header);
-    for (int y = 0; y < height; ++y) {
-        put(&raw, "", 1); /* filter 0 */
-        put(&raw, rgba + (size_t)y * (size_t)width * 4, (size_t)width * 4);
-    }
-    bytes z = stored(&raw);
-    put_chunk(&png, "IDAT", &z);
-    put_chunk(&png, "IEND", &none);
-    free(header.data);
-    free(raw.data);
-    free(z.data);
-    *byte_count = png.count;
+    const bytes png = png_make((uint32_t)width, (uint32_t)height, 8, PNG_RGBA, rgba);
+    *byte_count = png.size;
     return png.data;
 }

@@ -5,7 +5,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* 8-bit RGBA, row 0 on top, at most 65535 bytes of pixels and row starts. Free the result. */
+typedef struct bytes {
+    uint8_t *data; /* free it */
+    size_t size;
+} bytes;
+
+/* PNG colour types. */
+enum { PNG_GREY = 0, PNG_RGB = 2, PNG_GREY_ALPHA = 4, PNG_RGBA = 6 };
+
+/* A PNG of interleaved samples of 8 or 16 bits (the high byte first), row 0 on top, without compression. */
+bytes png_make(uint32_t width, uint32_t height, int bit_depth, int color_type, const uint8_t *samples);
+/* A PNG that ends after a header with this size. */
+bytes png_header(uint32_t width, uint32_t height);
+
+/* 8-bit RGBA. Free the result. */
 uint8_t *png_file(const uint8_t *rgba, int width, int height, size_t *byte_count);
 
 #endif

@@ -96,8 +96,8 @@ int scenes_add_square(scene *s, int material, float half_size)
 {
     scene_mesh *const mesh = add_mesh(s, material, 4, 2);
     add_coordinates(mesh);
-    for (int i = 0; i < 4; ++i) {
-        const int right = i & 1, near = i >> 1;
+    for (size_t i = 0; i < 4; ++i) {
+        const bool right = (i & 1) != 0, near = i > 1;
         set(&mesh->position[3 * i], (double)(right ? half_size : -half_size), 0.0,
             (double)(near ? half_size : -half_size));
         set(&mesh->normal[3 * i], 0.0, 1.0, 0.0);
@@ -111,7 +111,7 @@ int scenes_add_square(scene *s, int material, float half_size)
     return s->mesh_count - 1;
 }
 
-static void set_sphere_vertex(scene_mesh *mesh, uint32_t i, double radius, double s, double t)
+static void set_sphere_vertex(scene_mesh *mesh, size_t i, double radius, double s, double t)
 {
     const double longitude = 2.0 * PI * s, colatitude = PI * t;
     const double x = sin(colatitude) * sin(longitude), y = cos(colatitude), z = sin(colatitude) * cos(longitude);
@@ -130,7 +130,7 @@ int scenes_add_sphere(scene *s, int material, float radius, int slices, int stac
     add_coordinates(mesh);
     for (uint32_t r = 0; r < rows; ++r)
         for (uint32_t c = 0; c < columns; ++c)
-            set_sphere_vertex(mesh, r * columns + c, (double)radius, (double)c / slices, (double)r / stacks);
+            set_sphere_vertex(mesh, (size_t)r * columns + c, (double)radius, (double)c / slices, (double)r / stacks);
     uint32_t *to = mesh->index;
     for (uint32_t r = 0; r + 1 < rows; ++r) {
         for (uint32_t c = 0; c + 1 < columns; ++c) {
@@ -147,14 +147,14 @@ int scenes_add_triangles(scene *s, int material, const float *positions, uint32_
 {
     scene_mesh *const mesh = add_mesh(s, material, 3 * triangle_count, triangle_count);
     memcpy(mesh->position, positions, 9 * (size_t)triangle_count * sizeof(float));
-    for (uint32_t t = 0; t < triangle_count; ++t) {
+    for (size_t t = 0; t < triangle_count; ++t) {
         const float *const p = &positions[9 * t];
         const double a[3] = { (double)(p[3] - p[0]), (double)(p[4] - p[1]), (double)(p[5] - p[2]) };
         const double b[3] = { (double)(p[6] - p[0]), (double)(p[7] - p[1]), (double)(p[8] - p[2]) };
         const double n[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
         const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        for (uint32_t k = 0; k < 3; ++k) {
-            mesh->index[3 * t + k] = 3 * t + k;
+        for (size_t k = 0; k < 3; ++k) {
+            mesh->index[3 * t + k] = (uint32_t)(3 * t + k);
             if (length > 0.0)
                 set(&mesh->normal[9 * t + 3 * k], n[0] / length, n[1] / length, n[2] / length);
             else
@@ -183,9 +183,9 @@ void scenes_add_instance(scene *s, int mesh, const float *to_world, int node)
 
     const float *const m = instance->to_world;
     const scene_mesh *const from = &s->meshes[mesh];
-    for (uint32_t v = 0; v < from->vertex_count; ++v) {
+    for (size_t v = 0; v < from->vertex_count; ++v) {
         const float *const p = &from->position[3 * v];
-        for (int k = 0; k < 3; ++k) {
+        for (size_t k = 0; k < 3; ++k) {
             const float at = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
             s->bounds_min[k] = fminf(s->bounds_min[k], at);
             s->bounds_max[k] = fmaxf(s->bounds_max[k], at);
