@@ -25,7 +25,7 @@ typedef struct model_row {
 static const model_row MODELS[] = {
     { GLINT_MODEL_SMOOTH, 1, 1e18 },
     { GLINT_MODEL_COUNTING, 1, 1e18 },
-    { GLINT_MODEL_EXPLICIT, 0, 1e5 },
+    { GLINT_MODEL_EXPLICIT, 0, 1500.0 },
 };
 
 typedef struct configuration {
@@ -49,8 +49,8 @@ static inline configuration configuration_of(glint_model model, int i)
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.model = model;
     if (model == GLINT_MODEL_EXPLICIT) {
-        o.surface.facets_per_m2 = 1e6F; /* it visits them all */
-        o.facet_limit = 20000U;
+        o.surface.facets_per_m2 = 1e5F; /* it visits them all */
+        o.facet_limit = 2000U;
     }
     o.distribution = i == 1 || i == 3 || i == 5 ? GLINT_DISTRIBUTION_BECKMANN : GLINT_DISTRIBUTION_GGX;
     if (i == 2 || i == 3) {
