@@ -13,6 +13,7 @@
 static const struct model *const models[] = {
     [GLINT_MODEL_SMOOTH] = &smooth_model,
     [GLINT_MODEL_COUNTING] = &counting_model,
+    [GLINT_MODEL_EXPLICIT] = &explicit_model,
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
 
@@ -175,6 +176,9 @@ static void check_options(complaint *c, const glint_material_options *o)
     check_enum(c, "distribution", (unsigned)o->distribution, GLINT_DISTRIBUTION_BECKMANN);
     check_enum(c, "fresnel", (unsigned)o->fresnel, GLINT_FRESNEL_CONDUCTOR);
     check_enum(c, "weighting", (unsigned)o->weighting, GLINT_WEIGHTING_EQUAL_PROJECTED_AREA);
+    check_enum(c, "facet_hash", (unsigned)o->facet_hash, GLINT_FACET_HASH_POVRAY);
+    if (o->facet_limit > 100000000U)
+        complain(c, GLINT_ERROR_RANGE, "facet_limit is %u, expected 0 to 100000000", o->facet_limit);
     check_surface(c, &o->surface);
     check(c, "facet_alpha", o->facet_alpha, 0.0F, 1.0F);
     check(c, "coverage", o->coverage, 0.0F, 1.0F);

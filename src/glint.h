@@ -51,7 +51,8 @@ GLINT_API const char *glint_result_text(glint_result result);
 
 typedef enum glint_model {
     GLINT_MODEL_SMOOTH = 0, /* infinitely many facets: Cook-Torrance */
-    GLINT_MODEL_COUNTING    /* a binomial count of the lit facets under the footprint */
+    GLINT_MODEL_COUNTING,   /* a binomial count of the lit facets under the footprint */
+    GLINT_MODEL_EXPLICIT    /* every facet under the footprint, one by one: the truth, slow */
 } glint_model;
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
@@ -92,6 +93,12 @@ typedef enum glint_weighting {
                                             flakes */
 } glint_weighting;
 
+/* Which facets there are, for the explicit model: those that another renderer draws with the same cells and seed. */
+typedef enum glint_facet_hash {
+    GLINT_FACET_HASH_CYCLES = 0, /* Blender's White Noise texture */
+    GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
+} glint_facet_hash;
+
 /* What textures say about one point of the surface. */
 typedef struct glint_surface {
     float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
@@ -121,6 +128,9 @@ typedef struct glint_material_options {
     float elongation;          /* [1, 1e4], length over width of a facet, along the tangent */
     uint32_t seed;             /* which facets there are */
     glint_allocator allocator; /* all NULL: malloc and free */
+    glint_facet_hash facet_hash; /* explicit model */
+    uint32_t facet_limit; /* explicit model: cells that one footprint may touch, at most 1e8; more give the smooth limit, and
+                             glint_value.facet_count says so: a client that wants the truth must look */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -132,10 +142,7 @@ typedef struct glint_material_options {
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
-            1.0F, 1.0F, 0U,                                                                                            \
-        {                                                                                                              \
-            0, 0, 0                                                                                                    \
-        }                                                                                                              \
+            1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U                                             \
     }
 
 typedef struct glint_material glint_material;

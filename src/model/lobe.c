@@ -8,7 +8,7 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 
-static ndf ndf_of(const model_query *q)
+ndf lobe_ndf(const model_query *q)
 {
     return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
                   q->surface->alpha_x, q->surface->alpha_y };
@@ -52,16 +52,17 @@ static float base_albedo(const model_query *q, int channel, float cos_i)
 
 void lobe_eval(const model_query *q, lobe_value *value)
 {
-    const ndf n = ndf_of(q);
+    const ndf n = lobe_ndf(q);
     const vec3 sum = vec3_add(q->wo, q->wi);
     value->h = vec3_normalize(sum);
     /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
     value->h_dot_wi = clamp01(0.5F * sqrtf(vec3_dot(sum, sum)));
     value->density = ndf_density(&n, value->h);
-    const float facets = 0.25F * value->density * ndf_masking_over_cosine(&n, q->wo, q->wi);
+    const float masking = 0.25F * ndf_masking_over_cosine(&n, q->wo, q->wi);
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
-        value->specular[c] = coverage * facet_reflectance(q, c, value->h_dot_wi) * facets;
+        value->reflectance[c] = coverage * facet_reflectance(q, c, value->h_dot_wi) * masking;
+        value->specular[c] = value->reflectance[c] * value->density;
         value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
 }
@@ -69,12 +70,12 @@ void lobe_eval(const model_query *q, lobe_value *value)
 float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
 {
     return cap_half_vector_solid_angle(q->solid_angle_sr, value->h_dot_wi) +
-           ndf_facet_solid_angle(ndf_of(q).kind, q->material->options.facet_alpha);
+           ndf_facet_solid_angle(lobe_ndf(q).kind, q->material->options.facet_alpha);
 }
 
 float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr)
 {
-    const ndf n = ndf_of(q);
+    const ndf n = lobe_ndf(q);
     float p = value->density * solid_angle_sr;
     if (q->material->options.weighting == GLINT_WEIGHTING_EQUAL_PROJECTED_AREA)
         p *= value->h.z;
@@ -103,7 +104,7 @@ static float specular_chance(const model_query *q)
 
 float lobe_pdf(const model_query *q)
 {
-    const ndf n = ndf_of(q);
+    const ndf n = lobe_ndf(q);
     const float chance = specular_chance(q);
     const vec3 h = vec3_normalize(vec3_add(q->wo, q->wi));
     /* Visible normals over the reflection's Jacobian: G1 D / (4 cos_o), G1 / cos_o = 1 / (cos_o + masked). */
@@ -123,7 +124,7 @@ static vec3 cosine_direction(float u1, float u2)
 
 int lobe_sample(const model_query *q, const float random[3], glint_sample *sample)
 {
-    const ndf n = ndf_of(q);
+    const ndf n = lobe_ndf(q);
     model_query lit = *q;
     if (random[0] < specular_chance(q)) {
         const vec3 h = ndf_sample_visible(&n, q->wo, random[1], random[2]);

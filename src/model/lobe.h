@@ -3,15 +3,20 @@
 #define MODEL_LOBE_H
 
 #include "model/model.h"
+#include "ndf/ndf.h"
 
 /* f |cos theta_i| in its two parts, and the density that made it. */
 typedef struct lobe_value {
     float specular[3];
     float diffuse[3];
-    vec3 h; /* unit half vector */
+    float reflectance[3]; /* specular over density: coverage F G2 / (4 cos_o) */
+    vec3 h;               /* unit half vector */
     float h_dot_wi;
     float density; /* D(h) */
 } lobe_value;
+
+/* The distribution of the facets at this point. */
+ndf lobe_ndf(const model_query *q);
 
 /* f = coverage F D G2 / (4 cos_o cos_i) + diffuse / pi of what the facets let through, each times |cos theta_i|. */
 void lobe_eval(const model_query *q, lobe_value *value);

@@ -46,9 +46,14 @@ float beckmann_masked(float alpha_x, float alpha_y, vec3 v)
     return fmaxf(0.0F, 0.5F * exp_negative(-a * a) * (s / SQRT_PI - v.z * erfcx_f(a)));
 }
 
+float beckmann_tail_area(float alpha, float w)
+{
+    return 0.5F * SQRT_PI * alpha * erfcx_f(w / alpha);
+}
+
 float beckmann_total_area(float alpha)
 {
-    return 1.0F + 0.5F * SQRT_PI * alpha * erfcx_f(1.0F / alpha);
+    return 1.0F + beckmann_tail_area(alpha, 1.0F);
 }
 
 /* Slope along the view, with density proportional to (cos - x sin) exp(-x^2) for x below cot: its distribution function

@@ -21,14 +21,22 @@ float ggx_masked(float alpha_x, float alpha_y, vec3 v)
     return length > 0.0F ? 0.5F * t / (length + v.z) : 0.0F;
 }
 
+float ggx_tail_area(float alpha, float w)
+{
+    /* alpha^2 atanh(b / w) / b with b = sqrt(1 - alpha^2); a series where the quotient is small. */
+    const float b2 = (1.0F - alpha) * (1.0F + alpha);
+    const float x2 = b2 / (w * w);
+    if (x2 < 0.01F)
+        return alpha * alpha / w * (1.0F + x2 * (1.0F / 3.0F + x2 * (0.2F + x2 * (1.0F / 7.0F))));
+    const float b = sqrtf(b2);
+    /* w - b = (w^2 - b^2) / (w + b) loses nothing when alpha is small: w^2 - b^2 = (w^2 - 1) + alpha^2. */
+    const float difference = (w - 1.0F) * (w + 1.0F) + alpha * alpha;
+    return alpha * alpha * log_f((w + b) / sqrtf(difference)) / b;
+}
+
 float ggx_total_area(float alpha)
 {
-    /* 1 + alpha^2 atanh(w) / w with w = sqrt(1 - alpha^2). */
-    const float w2 = (1.0F - alpha) * (1.0F + alpha);
-    if (w2 < 0.01F)
-        return 1.0F + alpha * alpha * (1.0F + w2 * (1.0F / 3.0F + w2 * (0.2F + w2 * (1.0F / 7.0F))));
-    const float w = sqrtf(w2);
-    return 1.0F + alpha * alpha * log_f((1.0F + w) / alpha) / w;
+    return 1.0F + ggx_tail_area(alpha, 1.0F);
 }
 
 vec3 ggx_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u2)

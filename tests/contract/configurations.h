@@ -16,12 +16,16 @@
 
 typedef struct model_row {
     glint_model model;
-    int reciprocal; /* f(wo, wi) = f(wi, wo), count for count */
+    /* f(wo, wi) = f(wi, wo), count for count. Not for explicit: it knows the true directions of a light of finite size,
+     * and exchanging the two exchanges only its middle with the viewer. */
+    int reciprocal;
+    double most_facets; /* that a test may put under one footprint */
 } model_row;
 
 static const model_row MODELS[] = {
-    { GLINT_MODEL_SMOOTH, 1 },
-    { GLINT_MODEL_COUNTING, 1 },
+    { GLINT_MODEL_SMOOTH, 1, 1e18 },
+    { GLINT_MODEL_COUNTING, 1, 1e18 },
+    { GLINT_MODEL_EXPLICIT, 0, 1500.0 },
 };
 
 typedef struct configuration {
@@ -44,6 +48,10 @@ static inline configuration configuration_of(glint_model model, int i)
                                                        "GGX, half discrete, tinted" };
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.model = model;
+    if (model == GLINT_MODEL_EXPLICIT) {
+        o.surface.facets_per_m2 = 1e5F; /* it visits them all */
+        o.facet_limit = 2000U;
+    }
     o.distribution = i == 1 || i == 3 || i == 5 ? GLINT_DISTRIBUTION_BECKMANN : GLINT_DISTRIBUTION_GGX;
     if (i == 2 || i == 3) {
         o.surface.alpha_x = 0.4F;

@@ -334,14 +334,15 @@ static void tends_to_smooth_as_density_grows(void **state)
     FOR_EACH_CONFIGURATION(c, m, row)
     {
         double last = INFINITY;
-        for (double n = 100.0; n < 1e12; n *= 100.0) {
+        for (double n = 100.0; n < fmin(1e12, row->most_facets); n *= 10.0) {
             const double r = roughness_of(m, n, &random);
-            /* The error falls with the square root: by 10 for 100 times the facets, give or take the noise of 4000
+            /* The error falls with the square root: by 3.2 for ten times the facets, give or take the noise of 4000
              * points. */
-            assert_true(r <= last * 0.2 + 1e-6);
+            assert_true(r <= last * 0.5 + 1e-6);
             last = r;
         }
-        assert_true(last < 1e-4);
+        if (row->most_facets > 1e12)
+            assert_true(last < 1e-4);
     }
 }
 

@@ -1,0 +1,174 @@
+/* The explicit model: every facet under the footprint, one by one, each a small mirror of its own. The truth for the
+ * others.
+ *
+ * The surface is a flat grid of square cells of area 1 / density with one facet each. A pixel sees each facet by the
+ * exact share of its own area (a box filter). A facet reflects the light where its normal sends the view into the
+ * light's cap; a rough facet spreads that over its own lobe. Cost is linear in the facets under the pixel, up to
+ * facet_limit.
+ *
+ * L = L_i F G2 / (4 cos_o) * integral of D-hat over the light, D-hat = D_H / N * sum of delta(h - h_k): Kneiphof and
+ * Klein 2024, Eqs. 9 to 11, with shares in place of 1 / N.
+ */
+#include "footprint/coverage.h"
+
+#define GLINT_LANES 1
+#include "math/elementary.h"
+#include "math/hash.h"
+#include "model/facet.h"
+#include "model/lobe.h"
+
+/* What every facet of one evaluation has in common. */
+typedef struct facet_sum {
+    const model_query *q;
+    ndf distribution;
+    float total_area; /* D_H */
+    float chord2;     /* square of the chord from the middle of the light's cap to its rim */
+    uint32_t seed;
+    double density; /* sum of what the facets add to D, averaged over the light */
+} facet_sum;
+
+/* Mass of a lobe around the origin within a disk of radius r at distance d, both squared and in units of the lobe's
+ * width. GGX is a uniform sphere in stereographic projection, so the disk is a cap of that sphere. */
+static float ggx_disk_mass(float d2, float r2)
+{
+    const float t = 1.0F + d2 - r2;
+    const float root = sqrtf(t * t + 4.0F * r2);
+    /* (1 - t / root) / 2, without the difference of nearly equal numbers. */
+    return t > 0.0F ? 2.0F * r2 / (root * (root + t)) : 0.5F * (1.0F - t / root);
+}
+
+/* exp(-x) I0(x) for x >= 0: Abramowitz and Stegun 9.8.1 and 9.8.2, error below 2e-7 in the function. */
+static float bessel_scaled(float x)
+{
+    if (x < 3.75F) {
+        const float t = x * x * (1.0F / 14.0625F);
+        float p = 0.0045813F * t + 0.0360768F;
+        p = p * t + 0.2659732F;
+        p = p * t + 1.2067492F;
+        p = p * t + 3.0899424F;
+        p = p * t + 3.5156229F;
+        return exp_negative(-x) * (p * t + 1.0F);
+    }
+    const float t = 3.75F / x;
+    float p = 0.00392377F * t - 0.01647633F;
+    p = p * t + 0.02635537F;
+    p = p * t - 0.02057706F;
+    p = p * t + 0.00916281F;
+    p = p * t - 0.00157565F;
+    p = p * t + 0.00225319F;
+    p = p * t + 0.01328592F;
+    return (p * t + 0.39894228F) / sqrtf(x);
+}
+
+/* The Gaussian lobe exp(-r^2) / pi: integral of 2 s exp(-(s - d)^2) exp(-2 s d) I0(2 s d) ds up to r. */
+static float beckmann_disk_mass(float d2, float r2)
+{
+    enum { POINTS = 32 };
+    const float d = sqrtf(d2), r = sqrtf(r2);
+    /* Nothing happens further than 5 widths from d. */
+    const float from = fmaxf(0.0F, d - 5.0F), to = fminf(r, d + 5.0F);
+    if (to <= from)
+        return 0.0F;
+    const float step = (to - from) / POINTS;
+    float sum = 0.0F;
+    for (int i = 0; i < POINTS; i++) {
+        const float s = from + ((float)i + 0.5F) * step;
+        sum += 2.0F * s * exp_negative(-(s - d) * (s - d)) * bessel_scaled(2.0F * s * d);
+    }
+    return fminf(sum * step, 1.0F);
+}
+
+/* The part of one facet's reflection that meets the light's cap. The lobe is taken as round around the mirrored view.
+ */
+static float lit_part(const facet_sum *s, vec3 h)
+{
+    const vec3 wo = s->q->wo, wi = s->q->wi;
+    const float cosine = vec3_dot(wo, h);
+    if (!(cosine > 0.0F))
+        return 0.0F;
+    const vec3 mirrored = vec3_add(vec3_scale(h, 2.0F * cosine), vec3_scale(wo, -1.0F));
+    const vec3 off = vec3_add(mirrored, vec3_scale(wi, -1.0F));
+    const float off2 = vec3_dot(off, off);
+    const float alpha = s->q->material->options.facet_alpha;
+    if (!(alpha > 0.0F))
+        return off2 <= s->chord2 ? 1.0F : 0.0F;
+    /* A lobe of solid angle alpha^2 in h has 4 h.wo times that in wi. */
+    const float scale = 1.0F / (alpha * alpha * 4.0F * cosine);
+    const float d2 = fminf(off2 * scale, 1e12F), r2 = fminf(s->chord2 * scale, 1e12F);
+    return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
+}
+
+static void add_facet(int64_t x, int64_t y, double share, void *user)
+{
+    facet_sum *s = user;
+    const glint_material_options *o = &s->q->material->options;
+    const vec3 h = facet_normal(&s->distribution, o->weighting, facet_hash(o->facet_hash, x, y, s->seed));
+    const float lit = lit_part(s, h);
+    if (!(lit > 0.0F))
+        return;
+    /* What a facet of unit projected area, or of unit area, adds to D. */
+    const float weight = o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? s->total_area : 1.0F / h.z;
+    s->density += share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit);
+}
+
+/* The pixel in cells, which are round in the space where elongated facets are. */
+static coverage_pixel pixel_of(const model_query *q)
+{
+    const glint_footprint *f = q->footprint;
+    const double per_metre = sqrt((double)q->surface->facets_per_m2);
+    const double stretch = sqrt((double)q->material->options.elongation);
+    const double u = per_metre / stretch, v = per_metre * stretch;
+    return (coverage_pixel){
+        f->u * u, f->v * v, (double)f->dudx * u, (double)f->dudy * u, (double)f->dvdx * v, (double)f->dvdy * v
+    };
+}
+
+static void explicit_eval(const model_query *q, glint_value *value)
+{
+    lobe_value lobe;
+    lobe_eval(q, &lobe);
+    *value = (glint_value){ 0 };
+    float density = lobe.density;
+    if (q->footprint && q->solid_angle_sr > 0.0F && q->surface->facets_per_m2 > 0.0F &&
+        q->surface->discreteness > 0.0F) {
+        const coverage_pixel pixel = pixel_of(q);
+        const double area = coverage_area(&pixel);
+        const float solid_angle = lobe_lit_solid_angle(q, &lobe);
+        value->facet_count = (float)area;
+        value->lit_probability = lobe_lit_probability(q, &lobe, solid_angle);
+        if (area > 0.0 && coverage_cell_bound(&pixel) <= (double)q->material->options.facet_limit) {
+            /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
+             * pi. */
+            facet_sum s = { .q = q,
+                            .distribution = lobe_ndf(q),
+                            .chord2 = q->solid_angle_sr / MATH_PI,
+                            .seed = q->material->options.seed + q->footprint->seed };
+            s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
+            coverage_each(&pixel, add_facet, &s);
+            const float discrete = (float)(s.density / (double)q->solid_angle_sr);
+            const float g = q->surface->discreteness;
+            density = (1.0F - g) * density + g * discrete;
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        value->smooth[c] = lobe.specular[c] + lobe.diffuse[c];
+        value->rgb[c] = lobe.reflectance[c] * density + lobe.diffuse[c];
+    }
+}
+
+static void explicit_eval_many(const model_query *q, size_t count, glint_value *value)
+{
+    for (size_t i = 0; i < count; i++)
+        explicit_eval(&q[i], &value[i]);
+}
+
+const struct model explicit_model = {
+    .name = "explicit",
+    .features = GLINT_FEATURE_DISCRETE | GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC |
+                GLINT_FEATURE_SAMPLE | GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA |
+                GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+    .eval = explicit_eval,
+    .eval_many = explicit_eval_many,
+    .sample = lobe_sample,
+    .pdf = lobe_pdf,
+};
