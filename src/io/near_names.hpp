@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-// The names within a third of the wanted one's letters (at least 2), nearest first; all of them, in their order, when none is near.
-// Separated by commas; "none" when there are no names.
+// The names within a third of the wanted one's letters (at least 2), nearest first; all of them, in their order, when
+// none is near. Separated by commas; "none" when there are no names.
 std::string near_names(const std::string &wanted, const std::vector<std::string> &names);
 
 #endif
