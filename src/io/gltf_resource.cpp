@@ -140,7 +140,7 @@ std::string path_of_uri(const gltf_file &file, const std::string &uri, const std
     const std::string relative = percent_decode(uri);
     if (relative.empty() || relative[0] == '/' || relative.find('\0') != relative.npos)
         throw file_error(pointer, "found the URI " + quoted + ", expected a path relative to the file's folder");
-    const std::string path = file.folder + "/" + relative;
+    std::string path = file.folder + "/" + relative;
     if (climbs(relative) || leads_out(file.folder, path))
         throw file_error(pointer, "found the URI " + quoted + ", which leaves the file's folder");
     return path;

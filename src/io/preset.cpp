@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <new>
 
 #include "io/gltf_document.hpp"
@@ -20,17 +21,11 @@ namespace fs = std::filesystem;
 constexpr const char *suffix = ".gltf-material.json";
 constexpr uint64_t max_preset_bytes = uint64_t{ 1 } << 24; // our choice: presets are written by hand
 
-// A scene that goes when an exception passes.
-struct owned_scene : scene {
-    owned_scene() : scene{}
+struct freed {
+    void operator()(scene *s) const
     {
+        scene_free(s);
     }
-    ~owned_scene()
-    {
-        scene_free(this);
-    }
-    owned_scene(const owned_scene &) = delete;
-    owned_scene &operator=(const owned_scene &) = delete;
 };
 
 // $GLINT_MATERIALS, or share/libglint/materials beside the folder of the program: the same in the build and when
@@ -138,7 +133,8 @@ void read_preset(const std::string &path, scene *s, scene_material *out, report 
 {
     gltf_file file = { path, gltf_folder_of(path), r, {}, {}, {}, 0, {}, {} };
     json material = preset_material(path);
-    owned_scene preset;
+    scene preset = {};
+    const std::unique_ptr<scene, freed> owner(&preset); // also when an exception passes
     try {
         gltf_read_document(file, document_around(std::move(material)), {}, false, &preset);
     } catch (const file_error &e) {
@@ -179,9 +175,9 @@ void replace_keeping_name(scene_material *old, const scene_material &preset)
 
 std::vector<std::string> material_names(const scene *s)
 {
-    std::vector<std::string> names;
-    for (int i = 0; i < s->material_count; i++)
-        names.push_back(s->materials[i].name);
+    std::vector<std::string> names(static_cast<size_t>(s->material_count));
+    for (size_t i = 0; i < names.size(); i++)
+        names[i] = s->materials[i].name;
     return names;
 }
 
@@ -216,7 +212,7 @@ bool preset_each(void (*visit)(const char *name, const char *title, const char *
     if (!guarded("materials", r, [&] { names = preset_names(folder = preset_folder()); }))
         return false;
     for (const std::string &name : names) {
-        path = folder + "/" + name + suffix;
+        path.assign(folder).append("/").append(name).append(suffix);
         const bool read = guarded(path, r, [&] {
             const json material = preset_material(path);
             visit(name.c_str(), extra_text(material, "title").c_str(), extra_text(material, "note").c_str(), user);

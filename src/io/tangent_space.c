@@ -220,7 +220,8 @@ static void find_neighbors(work *w)
 
 static bool has_no_group(const work *w, uint32_t number)
 {
-    return w->group[3 * number] == NONE && w->group[3 * number + 1] == NONE && w->group[3 * number + 2] == NONE;
+    const uint32_t *group = &w->group[3 * (size_t)number];
+    return group[0] == NONE && group[1] == NONE && group[2] == NONE;
 }
 
 /* Takes a corner into the group when its triangle's orientation allows; a triangle without one takes that of its first

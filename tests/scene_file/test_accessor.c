@@ -80,13 +80,13 @@ static void every_stride_is_read_or_refused(void **state)
 {
     gltf_case *c = *state;
     uint8_t bytes[2 * 300 + 12] = { 0 };
-    for (int stride = 1; stride <= 300; stride++) {
+    for (size_t stride = 1; stride <= 300; stride++) {
         memset(bytes, 0, sizeof bytes);
-        for (int i = 0; i < 3; i++)
+        for (size_t i = 0; i < 3; i++)
             memcpy(bytes + i * stride, corners + 3 * i, 12);
         gltf_case_json_with_buffer(
             c, bytes, sizeof bytes,
-            "'bufferViews': [{ 'buffer': 0, 'byteLength': %d, 'byteStride': %d }], 'accessors': ["
+            "'bufferViews': [{ 'buffer': 0, 'byteLength': %zu, 'byteStride': %zu }], 'accessors': ["
             "{ 'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3' }]," MESH("'POSITION': 0"),
             2 * stride + 12, stride);
         if (stride % 4 == 0 && stride >= 12 && stride <= 252) {

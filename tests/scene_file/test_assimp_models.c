@@ -123,7 +123,7 @@ static void normals_without_length_are_repaired_with_a_warning(void **state)
     gltf_case_accepted(c);
     gltf_case_warned(c, "/attributes/NORMAL: 4 normals have no length");
     const scene_mesh *m = &c->scene.meshes[0];
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
+    for (size_t i = 0; i < m->vertex_count; i++) {
         const float *n = &m->normal[3 * i], *p = &m->position[3 * i];
         assert_true(fabsf(hypotf(hypotf(n[0], n[1]), n[2]) - 1.0F) < 1e-6F);
         assert_true(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] > 0.0F); /* out of the box around the origin */
@@ -146,7 +146,7 @@ static void extent(const scene_mesh *m, float low[3], float high[3])
 static float distance_to(const scene_mesh *m, const float p[3])
 {
     float nearest = FLT_MAX;
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
+    for (size_t i = 0; i < m->vertex_count; i++) {
         const float *q = &m->position[3 * i];
         nearest = fminf(nearest, fmaxf(fabsf(p[0] - q[0]), fmaxf(fabsf(p[1] - q[1]), fabsf(p[2] - q[2]))));
     }
@@ -172,10 +172,10 @@ static void draco_positions_are_those_of_the_plain_file_within_half_a_step(void 
             range = fmaxf(range, high[k] - low[k]);
         const float bound =
             0.5F * range / 2047.0F + 4.0F * FLT_EPSILON * (range + fabsf(low[0]) + fabsf(low[1]) + fabsf(low[2]));
-        for (uint32_t v = 0; v < b->vertex_count; v += 7) {
+        for (size_t v = 0; v < b->vertex_count; v += 7) {
             const float found = distance_to(a, &b->position[3 * v]);
             if (!(found <= bound))
-                fail_msg("%s vertex %u is off by %g, expected at most %g", b->name, v, (double)found, (double)bound);
+                fail_msg("%s vertex %zu is off by %g, expected at most %g", b->name, v, (double)found, (double)bound);
         }
     }
     scene_free(&plain);

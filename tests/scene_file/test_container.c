@@ -116,16 +116,16 @@ static void text_that_is_not_json_is_refused_at_its_line(void **state)
 static void deep_json_is_refused_and_does_not_recurse(void **state)
 {
     gltf_case *c = *state;
-    enum { DEPTH = 1000000 };
-    char *deep = malloc(2 * DEPTH + 1);
+    const size_t depth = 1000000;
+    char *deep = malloc(2 * depth + 1);
     assert_non_null(deep);
-    memset(deep, '[', DEPTH);
-    memset(deep + DEPTH, ']', DEPTH);
-    deep[2 * DEPTH] = '\0';
+    memset(deep, '[', depth);
+    memset(deep + depth, ']', depth);
+    deep[2 * depth] = '\0';
     gltf_case_json(c, "'extras': %s", deep);
     gltf_case_refused(c, "nested deeper than 64", NULL);
-    deep[DEPTH + 50] = '\0';
-    gltf_case_json(c, "'extras': %s", deep + DEPTH - 50);
+    deep[depth + 50] = '\0';
+    gltf_case_json(c, "'extras': %s", deep + depth - 50);
     gltf_case_accepted(c);
     free(deep);
 }

@@ -32,11 +32,11 @@ static void write_points(gltf_case *c, const char *primitive)
 static void corners_of(const scene_mesh *m, uint32_t i, int out[3])
 {
     for (uint32_t k = 0; k < 3; k++) {
-        const float *p = &m->position[3 * m->index[3 * i + k]];
+        const float *p = &m->position[3 * (size_t)m->index[3 * i + k]];
         out[k] = -1;
-        for (int n = 0; n < 5; n++)
-            if (memcmp(p, &points[3 * n], 12) == 0)
-                out[k] = n;
+        for (size_t n = 0; n < 5; n++)
+            if (p[0] == points[3 * n] && p[1] == points[3 * n + 1])
+                out[k] = (int)n;
     }
 }
 
@@ -103,7 +103,7 @@ static void missing_normals_are_flat_and_face_the_winding(void **state)
     gltf_case_accepted(c);
     const scene_mesh *m = &c->scene.meshes[0];
     assert_int_equal(m->vertex_count, 9);
-    for (uint32_t i = 0; i < 9; i++)
+    for (size_t i = 0; i < 9; i++)
         assert_true(m->normal[3 * i] == 0 && m->normal[3 * i + 1] == 0 && m->normal[3 * i + 2] == 1);
     assert_null(m->tangent);
 }
@@ -165,9 +165,9 @@ static const double pi = 3.14159265358979323846;
 
 static void make_sphere(sphere *s)
 {
-    for (int j = 0, n = 0; j <= STACKS; j++)
-        for (int i = 0; i <= SLICES; i++, n++) {
-            const double longitude = 2.0 * pi * i / SLICES, polar = pi * j / STACKS;
+    for (size_t j = 0, n = 0; j <= STACKS; j++)
+        for (size_t i = 0; i <= SLICES; i++, n++) {
+            const double longitude = 2.0 * pi * (double)i / SLICES, polar = pi * (double)j / STACKS;
             s->position[3 * n] = (float)(sin(polar) * cos(longitude));
             s->position[3 * n + 1] = (float)cos(polar);
             s->position[3 * n + 2] = (float)(-sin(polar) * sin(longitude));
@@ -188,15 +188,15 @@ static void tangents_of_a_sphere_follow_its_parallels(void **state)
 {
     (void)state;
     sphere *s = calloc(1, sizeof *s);
-    float *tangents = calloc(12 * SPHERE_TRIANGLES, sizeof *tangents);
+    float *tangents = calloc(SPHERE_TRIANGLES, 12 * sizeof *tangents);
     assert_true(s && tangents);
     make_sphere(s);
     const tangent_space_input in = {
         SPHERE_VERTICES, SPHERE_TRIANGLES, s->position, s->position, s->texcoord, s->index
     };
     assert_true(tangent_space_compute(&in, tangents));
-    for (int corner = 0; corner < 3 * SPHERE_TRIANGLES; corner++) {
-        const float *n = &s->position[3 * s->index[corner]], *t = &tangents[4 * corner];
+    for (size_t corner = 0; corner < (size_t)3 * SPHERE_TRIANGLES; corner++) {
+        const float *n = &s->position[3 * (size_t)s->index[corner]], *t = &tangents[4 * corner];
         assert_true(fabsf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2] - 1.0F) < 1e-5F);
         assert_true(fabsf(t[0] * n[0] + t[1] * n[1] + t[2] * n[2]) < 1e-5F);
         if (fabsf(n[1]) > 0.9F)
@@ -204,7 +204,7 @@ static void tangents_of_a_sphere_follow_its_parallels(void **state)
         const double longitude = atan2(-(double)n[2], (double)n[0]);
         const double along = -sin(longitude) * (double)t[0] - cos(longitude) * (double)t[2];
         if (!(along > cos(2.0 * pi / SLICES)) || t[3] != 1.0F)
-            fail_msg("corner %d: tangent %g %g %g %g", corner, (double)t[0], (double)t[1], (double)t[2], (double)t[3]);
+            fail_msg("corner %zu: tangent %g %g %g %g", corner, (double)t[0], (double)t[1], (double)t[2], (double)t[3]);
     }
     free(s);
     free(tangents);
@@ -222,7 +222,7 @@ static void mirrored_texture_splits_the_vertices_of_its_seam(void **state)
     const tangent_space_input in = { 4, 2, position, normal, texcoord, index };
     float t[24];
     assert_true(tangent_space_compute(&in, t));
-    for (int corner = 0; corner < 6; corner++) {
+    for (size_t corner = 0; corner < 6; corner++) {
         const float side = corner < 3 ? 1.0F : -1.0F;
         assert_true(fabsf(t[4 * corner] - side) < 1e-6F && t[4 * corner + 3] == side);
     }
@@ -238,7 +238,7 @@ static void unusable_texture_coordinates_still_give_unit_tangents(void **state)
     const tangent_space_input in = { 6, 2, position, normal, texcoord, index };
     float t[24];
     assert_true(tangent_space_compute(&in, t));
-    for (int i = 0; i < 6; i++) {
+    for (size_t i = 0; i < 6; i++) {
         const float *v = &t[4 * i], *n = &normal[3 * i];
         assert_true(fabsf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1.0F) < 1e-6F);
         assert_true(fabsf(v[0] * n[0] + v[1] * n[1] + v[2] * n[2]) < 1e-6F);
@@ -273,7 +273,7 @@ static void vertices_that_no_triangle_uses_are_dropped(void **state)
 {
     gltf_case *c = *state;
     float data[3 * 1000 * 2 + 3] = { 0 };
-    for (int i = 0; i < 1000; i++) {
+    for (size_t i = 0; i < 1000; i++) {
         data[3 * i] = (float)i;
         data[3000 + 3 * i + 2] = 1.0F;
     }
@@ -291,7 +291,7 @@ static void vertices_that_no_triangle_uses_are_dropped(void **state)
     const scene_mesh *m = &c->scene.meshes[0];
     assert_int_equal(m->vertex_count, 4);
     for (uint32_t i = 0; i < 6; i++)
-        assert_true(m->position[3 * m->index[i]] == (float)indices[i]);
+        assert_true(m->position[3 * (size_t)m->index[i]] == (float)indices[i]);
 }
 
 int main(void)

@@ -153,7 +153,7 @@ static void assert_little_memory(void)
 {
     struct rusage usage;
     assert_int_equal(getrusage(RUSAGE_SELF, &usage), 0);
-    assert_true(usage.ru_maxrss < 2 * 1024 * 1024);
+    assert_true(usage.ru_maxrss < 2L * 1024 * 1024);
 }
 
 static void mutants_of_a_file_with_everything_are_whole_or_refused(void **state)

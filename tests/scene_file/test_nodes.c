@@ -165,7 +165,7 @@ static void gpu_instances_are_placed_under_their_node(void **state)
                    " 'attributes': { 'TRANSLATION': 0 } } } }]");
     gltf_case_accepted(c);
     assert_int_equal(c->scene.instance_count, 3);
-    for (int i = 0; i < 3; i++)
+    for (size_t i = 0; i < 3; i++)
         assert_near(&c->scene.instances[i].to_world[12], triangle[3 * i], triangle[3 * i + 1], 7);
 }
 
