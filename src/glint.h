@@ -129,8 +129,8 @@ typedef struct glint_material_options {
     uint32_t seed;             /* which facets there are */
     glint_allocator allocator; /* all NULL: malloc and free */
     glint_facet_hash facet_hash; /* explicit model */
-    uint32_t facet_limit; /* explicit model: cells that one footprint may touch, at most 1e8; more give the smooth limit, and
-                             glint_value.facet_count says so: a client that wants the truth must look */
+    uint32_t facet_limit;        /* explicit model: cells that one footprint may touch, at most 1e8; beyond it
+                                           glint_value.over_limit is set: a client that wants the truth must look */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -182,6 +182,7 @@ typedef struct glint_value {
     float smooth[3];       /* the same without discreteness: the expectation of rgb over seeds */
     float facet_count;     /* N, facets under the footprint */
     float lit_probability; /* p, that one facet reflects the light to the viewer */
+    int over_limit;        /* 1: the footprint touches more cells than facet_limit, and rgb is the smooth value */
 } glint_value;
 
 /* Radiance factor f(wo, wi) * |cos theta_i|, averaged over the footprint: a light of radiance L and solid angle w adds

@@ -136,7 +136,8 @@ static void explicit_eval(const model_query *q, glint_value *value)
         const float solid_angle = lobe_lit_solid_angle(q, &lobe);
         value->facet_count = (float)area;
         value->lit_probability = lobe_lit_probability(q, &lobe, solid_angle);
-        if (area > 0.0 && coverage_cell_bound(&pixel) <= (double)q->material->options.facet_limit) {
+        value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
+        if (area > 0.0 && !value->over_limit) {
             /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
              * pi. */
             facet_sum s = { .q = q,

@@ -1,6 +1,8 @@
 /* Direct light in three steps: gather the lights that the point sees, evaluate the surface for each, add them up. */
 #include "preview/direct.h"
 
+#include <math.h>
+
 /* Lights that are gathered at a time. */
 #define CHUNK 16
 
@@ -37,8 +39,14 @@ static int gather(const world *w, const hit *h, const shade_point *p, const samp
 
 static void evaluate(const shade_point *p, light_query *queries, int count, ray_counts *counts)
 {
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
+        const glint_value *const value = &queries[i].value;
         shade_eval(p, queries[i].view.wi, queries[i].view.solid_angle_sr, &queries[i].value);
+        if (value->over_limit) {
+            ++counts->over_limit;
+            counts->most_facets = fmaxf(counts->most_facets, value->facet_count);
+        }
+    }
     for (int i = 0; i < p->layer_count; ++i)
         *(p->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals) += (uint64_t)count;
 }

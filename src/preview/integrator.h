@@ -37,6 +37,8 @@ typedef struct pixel_sample {
 /* The counters of a thread. */
 typedef struct ray_counts {
     uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
+    uint64_t over_limit; /* evaluations with more facets than the explicit model visits */
+    float most_facets;   /* of those */
 } ray_counts;
 
 /* Sample number index of the pixel (x, y), which stands for 1/spp of it. */

@@ -139,6 +139,12 @@ static void take_down(stage *st)
     free(st->lights);
 }
 
+static unsigned default_facet_limit(void)
+{
+    const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    return o.facet_limit;
+}
+
 static bool render(const stage *st, const preview_options *o, image *out, preview_statistics *statistics, report *r)
 {
     const bool whole = o->tile_width == 0;
@@ -156,9 +162,17 @@ static bool render(const stage *st, const preview_options *o, image *out, previe
     statistics->bounce_rays = counts.bounce_rays;
     statistics->glint_evals = counts.glint_evals;
     statistics->smooth_evals = counts.smooth_evals;
+    if (finished && counts.over_limit == 0)
+        return true;
+    image_free(out);
     if (!finished)
-        image_free(out);
-    return finished;
+        return false;
+    return report_error(
+        r,
+        "%s: the explicit model visits every facet under a sample, and %llu samples see too many, up to "
+        "%.3g; expected at most %u: use more samples a pixel, a closer view or the counting model",
+        st->scene->path != NULL ? st->scene->path : "scene", (unsigned long long)counts.over_limit,
+        (double)counts.most_facets, default_facet_limit());
 }
 
 bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,

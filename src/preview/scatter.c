@@ -21,10 +21,17 @@ static float widened(float alpha, double slope_variance)
     return (float)fmin(sqrt((double)alpha * (double)alpha + 2.0 * slope_variance), 1.0);
 }
 
+/* Of the half vector, in square radians: a cone about as wide as the sun. */
+#define WIDE_CONE 1e-5
+
 void shade_widen(shade_point *p, double slope_variance)
 {
     for (int i = 0; i < p->layer_count; ++i) {
         glint_surface *const s = &p->layers[i].surface;
+        /* It sees the mean of the flashes of many directions: to count facets there would add noise and nothing else.
+         */
+        if (slope_variance > WIDE_CONE)
+            p->layers[i].counts = false;
         s->alpha_x = widened(s->alpha_x, slope_variance);
         s->alpha_y = widened(s->alpha_y, slope_variance);
     }
@@ -57,6 +64,7 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
         if (layer->counts) {
             value->facet_count = one.facet_count;
             value->lit_probability = one.lit_probability;
+            value->over_limit = one.over_limit;
         }
     }
 }

@@ -1,6 +1,7 @@
 /* A counter hands out tiles; every thread writes pixels that no other touches, so neither order nor number shows. */
 #include "preview/tiles.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <time.h>
 #include <unistd.h>
@@ -102,6 +103,8 @@ static void add_counts(ray_counts *sum, const ray_counts *part)
     sum->bounce_rays += part->bounce_rays;
     sum->glint_evals += part->glint_evals;
     sum->smooth_evals += part->smooth_evals;
+    sum->over_limit += part->over_limit;
+    sum->most_facets = fmaxf(sum->most_facets, part->most_facets);
 }
 
 static int thread_count(const tiles_job *job, int tile_count)

@@ -84,7 +84,7 @@ static void variance_of_explicit_is_binomial(void **state)
     const float up[3] = { 0.0F, 0.0F, 1.0F };
     const glint_light light = { GLINT_LIGHT_CAP, 0.02F };
     moments x = { 0 };
-    glint_value v = { { 0 }, { 0 }, 0, 0 };
+    glint_value v = { { 0 }, { 0 }, 0, 0, 0 };
     for (int k = 0; k < 40000; k++) {
         /* 5 x 5 cells of 1e-4 m, on their borders */
         const glint_footprint f = {

@@ -129,7 +129,8 @@ static void random_bits_are_sane(void **state)
         v = (glint_value){ { sample.weight[0], sample.weight[1], sample.weight[2] },
                            { sample.pdf, glint_pdf(m, &s, wo, wi), 0.0F },
                            0.0F,
-                           0.0F };
+                           0.0F,
+                           0 };
         assert_sane(&v);
     }
 }
@@ -183,7 +184,7 @@ static void random_batches_are_sane(void **state)
                                 { rgb[0], rgb[1], rgb[2] } };
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
         for (int i = 0; i < COUNT; i++)
-            assert_sane(&(glint_value){ { rgb[0][i], rgb[1][i], rgb[2][i] }, { 0 }, 0, 0 });
+            assert_sane(&(glint_value){ { rgb[0][i], rgb[1][i], rgb[2][i] }, { 0 }, 0, 0, 0 });
     }
 }
 
