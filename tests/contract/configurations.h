@@ -22,6 +22,7 @@ typedef struct model_row {
 static const model_row MODELS[] = {
     { GLINT_MODEL_SMOOTH, 1 },
     { GLINT_MODEL_COUNTING, 1 },
+    { GLINT_MODEL_DICTIONARY, 1 },
 };
 
 typedef struct configuration {

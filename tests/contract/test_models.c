@@ -65,7 +65,7 @@ static void nothing_is_seen_below_the_horizon(void **state)
         assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
         glint_eval(m, NULL, &f, bad[i], up, &light, rgb);
         assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
-        assert_true(glint_pdf(m, NULL, up, bad[i]) == 0.0F && glint_pdf(m, NULL, bad[i], up) == 0.0F);
+        assert_true(glint_pdf(m, NULL, NULL, up, bad[i]) == 0.0F && glint_pdf(m, NULL, NULL, bad[i], up) == 0.0F);
     }
 }
 
@@ -84,7 +84,7 @@ static void energy_is_kept_and_sampling_agrees_with_quadrature(void **state)
             const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
                                  (float)random_uniform(&random) };
             glint_sample s;
-            moments_add(&sampled, glint_sample_direction(m, NULL, wo, u, &s) ? (double)s.weight[0] : 0.0);
+            moments_add(&sampled, glint_sample_direction(m, NULL, NULL, wo, u, &s) ? (double)s.weight[0] : 0.0);
             float wi[3], rgb[3];
             random_direction(&random, wi);
             glint_eval(m, NULL, NULL, wo, wi, NULL, rgb);
@@ -109,9 +109,9 @@ static void weight_times_density_is_the_value(void **state)
         const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
                              (float)random_uniform(&random) };
         glint_sample s;
-        if (!glint_sample_direction(m, NULL, wo, u, &s))
+        if (!glint_sample_direction(m, NULL, NULL, wo, u, &s))
             continue;
-        const float pdf = glint_pdf(m, NULL, wo, s.wi);
+        const float pdf = glint_pdf(m, NULL, NULL, wo, s.wi);
         assert_true(fabs((double)pdf / (double)s.pdf - 1.0) < 1e-5);
         glint_eval(m, NULL, NULL, wo, s.wi, NULL, rgb);
         for (int k = 0; k < 3; k++)
@@ -139,7 +139,7 @@ static void samples_have_their_density(void **state)
                 const double z = (i + 0.5) / (ROWS * FINE), phi = 2.0 * PI * (k + 0.5) / (COLUMNS * FINE);
                 const double r = sqrt(1.0 - z * z);
                 const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
-                const double p = (double)glint_pdf(m, NULL, wo, wi) * 2.0 * PI / ((double)ROWS * FINE * COLUMNS * FINE);
+                const double p = (double)glint_pdf(m, NULL, NULL, wo, wi) * 2.0 * PI / ((double)ROWS * FINE * COLUMNS * FINE);
                 expected[(i / FINE) * COLUMNS + k / FINE] += p * SAMPLES;
                 inside += p;
             }
@@ -148,7 +148,7 @@ static void samples_have_their_density(void **state)
             const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
                                  (float)random_uniform(&random) };
             glint_sample s;
-            if (!glint_sample_direction(m, NULL, wo, u, &s)) {
+            if (!glint_sample_direction(m, NULL, NULL, wo, u, &s)) {
                 below += 1.0;
                 continue;
             }
