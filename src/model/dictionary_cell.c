@@ -13,6 +13,10 @@
  */
 #include "model/dictionary_cell.h"
 
+#include <math.h>
+#include <stddef.h>
+
+#define GLINT_LANES 1
 #include "math/binomial.h"
 #include "math/hash.h"
 
