@@ -378,8 +378,7 @@ void glint_eval_value(const glint_material *material, const glint_surface *surfa
 {
     checked c;
     *value = (glint_value){ 0 };
-    if (!wi || !begin(&c, material, surface, footprint, wo) ||
-        !light_up(&c, wi, light ? light->solid_angle_sr : 0.0F))
+    if (!wi || !begin(&c, material, surface, footprint, wo) || !light_up(&c, wi, light ? light->solid_angle_sr : 0.0F))
         return;
     material->model->eval(&c.query, value);
     make_finite(value);

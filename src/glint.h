@@ -60,10 +60,10 @@ typedef enum glint_feature {
     GLINT_FEATURE_DISCRETE = 1 << 0, /* shows single facets */
     GLINT_FEATURE_GGX = 1 << 1,
     GLINT_FEATURE_BECKMANN = 1 << 2,
-    GLINT_FEATURE_ANISOTROPIC = 1 << 3,         /* alpha_x != alpha_y */
-    GLINT_FEATURE_SAMPLE = 1 << 4,              /* sample and pdf */
-    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,     /* a glint_surface may differ from point to point */
-    GLINT_FEATURE_EQUAL_AREA = 1 << 6,          /* facets of equal area */
+    GLINT_FEATURE_ANISOTROPIC = 1 << 3,          /* alpha_x != alpha_y */
+    GLINT_FEATURE_SAMPLE = 1 << 4,               /* sample and pdf */
+    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,      /* a glint_surface may differ from point to point */
+    GLINT_FEATURE_EQUAL_AREA = 1 << 6,           /* facets of equal area */
     GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7, /* facets of equal projected area */
     GLINT_FEATURE_SAMPLE_FOOTPRINT = 1 << 8,     /* sample and pdf know the facets under a footprint */
     GLINT_FEATURE_COLOR = 1 << 9                 /* facets of different colours */
@@ -142,8 +142,7 @@ typedef struct glint_material_options {
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
-            1.0F, 1.0F, 0U,                                                                                            \
-        { 0, 0, 0 }, 0.0F, 4.0F, 0.0F, 0U,                                                                             \
+            1.0F, 1.0F, 0U, { 0, 0, 0 }, 0.0F, 4.0F, 0.0F, 0U,                                                         \
         {                                                                                                              \
             {                                                                                                          \
                 0.0F, 0.0F, 0.0F                                                                                       \

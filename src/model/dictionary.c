@@ -1,9 +1,9 @@
 /* The dictionary model: a normalised distribution of normals for each patch of surface, from products of tabulated
  * marginals.
  *
- * Chermain et al. 2020: f = F G2 D_P / (4 cos_o cos_i) with V-cavity masking, D_P a weighted sum over the cells of a MIP
- * hierarchy (Eqs. 12 to 16). The paper has no sampling; since D_P is even, the visible normals of V-cavities (Heitz and
- * d'Eon 2014) sample exactly what is evaluated.
+ * Chermain et al. 2020: f = F G2 D_P / (4 cos_o cos_i) with V-cavity masking, D_P a weighted sum over the cells of a
+ * MIP hierarchy (Eqs. 12 to 16). The paper has no sampling; since D_P is even, the visible normals of V-cavities (Heitz
+ * and d'Eon 2014) sample exactly what is evaluated.
  */
 #include "model/dictionary_cell.h"
 #include "model/dictionary_patch.h"
@@ -45,12 +45,11 @@ static int is_discrete(const model_query *q)
 static void find_point(const model_query *q, int discrete, point *p)
 {
     const glint_material_options *o = &q->material->options;
-    p->surface = (dictionary_surface){
-        q->material->baked,
-        { o->distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN, q->surface->alpha_x, q->surface->alpha_y },
-        o->coverage,
-        o->density_variation
-    };
+    p->surface = (dictionary_surface){ q->material->baked,
+                                       { o->distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
+                                         q->surface->alpha_x, q->surface->alpha_y },
+                                       o->coverage,
+                                       o->density_variation };
     p->patch.count = 0;
     if (discrete) {
         const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
@@ -139,9 +138,9 @@ static float covered(const point *p)
 {
     float sum = p->smooth_share;
     for (int i = 0; i < p->patch.count; i++)
-        sum += p->discrete_share * p->patch.cell[i].weight *
-               dictionary_cell_coverage(&p->surface, p->patch.cell[i].hash,
-                                        p->patch.grain_level[p->patch.cell[i].level]);
+        sum +=
+            p->discrete_share * p->patch.cell[i].weight *
+            dictionary_cell_coverage(&p->surface, p->patch.cell[i].hash, p->patch.grain_level[p->patch.cell[i].level]);
     return sum;
 }
 

@@ -122,7 +122,8 @@ static dictionary_lobes make_lobes(const dictionary_surface *surface, uint32_t h
     return l;
 }
 
-/* Deals the facets to scales by systematic sampling: scale j gets share_j of them in the mean, a whole number each time.
+/* Deals the facets to scales by systematic sampling: scale j gets share_j of them in the mean, a whole number each
+ * time.
  */
 static void deal_to_scales(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t cell,
                            float log4_facets)
@@ -139,9 +140,8 @@ static void deal_to_scales(dictionary_cell_slopes *s, const dictionary_surface *
         const float share = (next - last) / dealt;
         last = next;
         if (share > 0.0F)
-            s->lobes[s->count++] =
-                make_lobes(surface, draw(cell, FIRST_SCALE + (uint32_t)j), share, set.e[j],
-                           log4_facets + 0.5F * LOG2_OF_E * log_f(share));
+            s->lobes[s->count++] = make_lobes(surface, draw(cell, FIRST_SCALE + (uint32_t)j), share, set.e[j],
+                                              log4_facets + 0.5F * LOG2_OF_E * log_f(share));
     }
 }
 

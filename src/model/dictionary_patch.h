@@ -10,8 +10,8 @@
 
 #include "glint.h"
 
-/* The longest footprint after clamping: 16 times as long as wide (glint_material_options.max_anisotropy). Its ellipse on
- * the finer level has half axes of sqrt(32^2 + 1) and sqrt(2^2 + 1) cells, on the coarser one of sqrt(16^2 + 1) and
+/* The longest footprint after clamping: 16 times as long as wide (glint_material_options.max_anisotropy). Its ellipse
+ * on the finer level has half axes of sqrt(32^2 + 1) and sqrt(2^2 + 1) cells, on the coarser one of sqrt(16^2 + 1) and
  * sqrt(1 + 1). A convex figure of area A and perimeter P holds at most A + P / 2 + 1 cell centres: 297 and 108. */
 enum { DICTIONARY_MAX_ANISOTROPY = 16, DICTIONARY_MAX_CELLS = 405 };
 
@@ -23,8 +23,8 @@ typedef struct dictionary_cell {
 
 typedef struct dictionary_patch {
     int count;
-    float log4_facets[2]; /* of one cell of either level */
-    int grain_level[2];   /* levels above the one where a cell has about one facet */
+    float log4_facets[2];                       /* of one cell of either level */
+    int grain_level[2];                         /* levels above the one where a cell has about one facet */
     dictionary_cell cell[DICTIONARY_MAX_CELLS]; /* weights sum to 1 */
 } dictionary_patch;
 

@@ -27,9 +27,9 @@
 enum { PHASES = 32, TAPS = 8, BEFORE = 3, PADDING = 8, PLACES = 1932, GUIDE_BITS = 12 };
 
 typedef struct lobe_table {
-    float tap[PHASES][TAPS];           /* the lobe at samples -BEFORE .. TAPS - 1 - BEFORE from that before its centre */
-    uint32_t last[PLACES];             /* the last quantile that belongs to a place, in units of 2^-32 */
-    uint16_t guide[1 << GUIDE_BITS];   /* the place of the least quantile with these leading bits */
+    float tap[PHASES][TAPS];         /* the lobe at samples -BEFORE .. TAPS - 1 - BEFORE from that before its centre */
+    uint32_t last[PLACES];           /* the last quantile that belongs to a place, in units of 2^-32 */
+    uint16_t guide[1 << GUIDE_BITS]; /* the place of the least quantile with these leading bits */
 } lobe_table;
 
 /* Sum of lobes at the samples, mirror images left out; entry 0 is slope -PADDING * SPACING. */

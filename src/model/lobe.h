@@ -9,7 +9,7 @@ typedef struct lobe_value {
     float specular[3];
     float diffuse[3];
     float fresnel[3]; /* reflectance of one facet */
-    vec3 h; /* unit half vector */
+    vec3 h;           /* unit half vector */
     float h_dot_wi;
     float density; /* D(h) */
 } lobe_value;

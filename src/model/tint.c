@@ -21,8 +21,8 @@ tint_palette tint_palette_of(const glint_material_options *options)
     return p;
 }
 
-/* 1 + variation cos(hue - a third of a turn per channel): never negative, the sum of the channels is 3 and the mean over
- * hues is white. */
+/* 1 + variation cos(hue - a third of a turn per channel): never negative, the sum of the channels is 3 and the mean
+ * over hues is white. */
 static void add_hue(float variation, uint32_t hash, float rgb[3])
 {
     for (int c = 0; c < 3; c++) {

@@ -139,7 +139,8 @@ static void samples_have_their_density(void **state)
                 const double z = (i + 0.5) / (ROWS * FINE), phi = 2.0 * PI * (k + 0.5) / (COLUMNS * FINE);
                 const double r = sqrt(1.0 - z * z);
                 const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
-                const double p = (double)glint_pdf(m, NULL, NULL, wo, wi) * 2.0 * PI / ((double)ROWS * FINE * COLUMNS * FINE);
+                const double p =
+                    (double)glint_pdf(m, NULL, NULL, wo, wi) * 2.0 * PI / ((double)ROWS * FINE * COLUMNS * FINE);
                 expected[(i / FINE) * COLUMNS + k / FINE] += p * SAMPLES;
                 inside += p;
             }
