@@ -1,5 +1,5 @@
-/* The weak white furnace (Chermain et al. 2020, Eq. 17): without shadowing and Fresnel every patch reflects exactly what
- * comes in.
+/* The weak white furnace (Chermain et al. 2020, Eq. 17): without shadowing and Fresnel every patch reflects exactly
+ * what comes in.
  *
  * test_dictionary_furnace FILE.csv also writes the sweep of the paper's Figure 9.
  */
