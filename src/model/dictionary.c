@@ -172,6 +172,8 @@ static slope sample_slope(const point *p, float mass, float *choice, float u1, f
         if (wanted < below + share)
             break;
     }
+    if (!chosen)
+        return dictionary_target_sample(&p->surface.target, u1, u2);
     *choice = uniform_within(wanted, below, below + share);
     dictionary_cell_slopes s;
     dictionary_cell_find(&s, &p->surface, chosen->hash, p->patch.log4_facets[chosen->level], coverage);

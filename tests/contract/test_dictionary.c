@@ -1,9 +1,7 @@
 /* The dictionary model against independent truths: Cook-Torrance with V-cavities in double precision, its mean over
  * positions, its sampling under a fixed footprint, coverage, colour and continuity. */
 #include "configurations.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "sampling.h"
 
 #define PI 3.14159265358979323846
 
@@ -57,7 +55,7 @@ static void converges_to_cook_torrance(void **state)
     for (int k = 0; k < 2; k++) {
         const glint_material_options o = options_of((glint_distribution)k, 0.4F, 0.2F);
         glint_material *m = create(&o);
-        double last = INFINITY;
+        double last = HUGE_VAL;
         printf("\n%-14s", k ? "Beckmann" : "GGX");
         for (double n = 1.0; n < 1e12; n *= 100.0) {
             moments square = { 0 };
@@ -148,12 +146,6 @@ static glint_material_options everything(glint_distribution distribution)
     return o;
 }
 
-static void uniforms(uint64_t *random, float u[3])
-{
-    for (int i = 0; i < 3; i++)
-        u[i] = (float)(random_bits(random) >> 40) * 0x1p-24F;
-}
-
 static void weight_times_density_is_the_value_under_a_footprint(void **state)
 {
     (void)state;
@@ -163,9 +155,10 @@ static void weight_times_density_is_the_value_under_a_footprint(void **state)
         glint_material *m = create(&o);
         int drawn = 0;
         for (int i = 0; i < 5000; i++) {
-            float wo[3], rgb[3], u[3];
+            float wo[3], rgb[3];
             random_direction(&random, wo);
-            uniforms(&random, u);
+            const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
+                                 (float)random_uniform(&random) };
             const glint_footprint f = random_footprint(&random);
             glint_sample s;
             if (!glint_sample_direction(m, NULL, &f, wo, u, &s))
@@ -181,50 +174,10 @@ static void weight_times_density_is_the_value_under_a_footprint(void **state)
     }
 }
 
-enum { ROWS = 512, COLUMNS = 512, SAMPLES = 1000000 };
-static double expected[ROWS * COLUMNS], seen[ROWS * COLUMNS];
-
-/* Integral of the density over the cells of (cos theta, phi), by fine x fine points each. */
-static double fill_expected(const glint_material *m, const glint_footprint *f, const float wo[3], int fine)
-{
-    double inside = 0.0;
-    memset(expected, 0, sizeof(expected));
-    for (int i = 0; i < ROWS * fine; i++)
-        for (int k = 0; k < COLUMNS * fine; k++) {
-            const double z = (i + 0.5) / (ROWS * fine), phi = 2.0 * PI * (k + 0.5) / (COLUMNS * fine);
-            const double r = sqrt(1.0 - z * z);
-            const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
-            const double p = (double)glint_pdf(m, NULL, f, wo, wi) * 2.0 * PI / ((double)ROWS * fine * COLUMNS * fine);
-            expected[i / fine * COLUMNS + k / fine] += p * SAMPLES;
-            inside += p;
-        }
-    return inside;
-}
-
-/* Returns how many samples end below the horizon. */
-static double fill_seen(const glint_material *m, const glint_footprint *f, const float wo[3], uint64_t *random)
-{
-    double below = 0.0;
-    memset(seen, 0, sizeof(seen));
-    for (int i = 0; i < SAMPLES; i++) {
-        float u[3];
-        uniforms(random, u);
-        glint_sample s;
-        if (!glint_sample_direction(m, NULL, f, wo, u, &s)) {
-            below += 1.0;
-            continue;
-        }
-        const double phi = atan2((double)s.wi[1], (double)s.wi[0]) / (2.0 * PI);
-        const int column = (int)fmin((phi < 0.0 ? phi + 1.0 : phi) * COLUMNS, COLUMNS - 1);
-        seen[(int)fmin((double)s.wi[2] * ROWS, ROWS - 1) * COLUMNS + column] += 1.0;
-    }
-    return below;
-}
-
-/* 10^6 samples, 512 x 512 cells, those that expect less than 10 joined with what is below the horizon. */
 static void samples_have_the_density_of_the_patch(void **state)
 {
     (void)state;
+    static sampling_counts counts;
     uint64_t random = 4;
     for (int k = 0; k < 2; k++) {
         const glint_material_options o = everything((glint_distribution)k);
@@ -232,18 +185,10 @@ static void samples_have_the_density_of_the_patch(void **state)
         const glint_footprint f = footprint_at(0.3, 0.2, 1e-3);
         float wo[3];
         direction(k ? 0.4 : 1.1, 0.5, wo);
-        const double inside = fill_expected(m, &f, wo, 3), below = fill_seen(m, &f, wo, &random);
-        double chi2 = 0.0, cells = 0.0, rest_seen = below, rest_expected = (1.0 - inside) * SAMPLES;
-        for (int i = 0; i < ROWS * COLUMNS; i++)
-            if (expected[i] >= 10.0) {
-                chi2 += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
-                cells += 1.0;
-            } else {
-                rest_seen += seen[i];
-                rest_expected += expected[i];
-            }
-        chi2 += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
-        const double tail = chi_square_tail(chi2, cells);
+        sampling_expect(&counts, m, &f, wo, 3);
+        sampling_draw(&counts, m, &f, wo, &random);
+        double cells;
+        const double chi2 = sampling_chi_square(&counts, &cells), tail = chi_square_tail(chi2, cells);
         printf("%-8s chi^2 %.1f on %.0f cells, significance %.3g\n", k ? "Beckmann" : "GGX", chi2, cells, tail);
         assert_true(cells > 1000.0 && tail > 0.001 / 2.0);
         glint_material_destroy(m);
@@ -263,7 +208,7 @@ static void coverage_is_a_mask_with_the_mean_of_the_whole(void **state)
     o.density_variation = 0.0F;
     const float up[3] = { 0.0F, 0.0F, 1.0F };
     glint_material *m = create(&o);
-    double last = INFINITY;
+    double last = HUGE_VAL;
     for (double n = 4.0; n < 1e6; n *= 16.0) {
         moments ratio = { 0 };
         const double size = sqrt(n / 1e8);

@@ -5,8 +5,6 @@
  */
 #include "configurations.h"
 
-#include <stdlib.h>
-
 /* Integrals of Eq. 17 for the three views of Figure 9. */
 enum { VIEWS = 3 };
 static const double VIEW_RAD[VIEWS] = { 0.0, 0.78539816339744831, 1.56 };
