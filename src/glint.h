@@ -52,7 +52,7 @@ GLINT_API const char *glint_result_text(glint_result result);
 typedef enum glint_model {
     GLINT_MODEL_SMOOTH = 0, /* infinitely many facets: Cook-Torrance */
     GLINT_MODEL_COUNTING,   /* a binomial count of the lit facets under the footprint */
-    GLINT_MODEL_DICTIONARY  /* distributions of hundreds of lobes from a table; its facets' light is sampled exactly */
+    GLINT_MODEL_DICTIONARY  /* a normalised distribution of hundreds of lobes for each patch; V-cavity masking */
 } glint_model;
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
@@ -197,7 +197,8 @@ typedef struct glint_value {
  * light      NULL or with a solid angle that is not positive: the smooth limit
  *
  * Returns linear RGB, zero where wo or wi is below the horizon.
- * L_smooth * b(N, p) / (N p), b a binomial count: Kneiphof and Klein 2024, Eq. 21.
+ * counting: L_smooth * b(N, p) / (N p), b a binomial count (Kneiphof and Klein 2024, Eq. 21).
+ * dictionary: F D G2 / (4 cos_o), D the distribution of the patch (Chermain et al. 2020, Eq. 14).
  */
 GLINT_API void glint_eval(const glint_material *material, const glint_surface *surface,
                           const glint_footprint *footprint, const float wo[3], const float wi[3],
