@@ -14,6 +14,7 @@ static const struct model *const models[] = {
     [GLINT_MODEL_SMOOTH] = &smooth_model,
     [GLINT_MODEL_COUNTING] = &counting_model,
     [GLINT_MODEL_EXPLICIT] = &explicit_model,
+    [GLINT_MODEL_DICTIONARY] = &dictionary_model,
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
 
@@ -170,6 +171,21 @@ static void check_surface(complaint *c, const glint_surface *s)
     }
 }
 
+static void check_colors(complaint *c, const glint_material_options *o)
+{
+    check(c, "color_variation", o->color_variation, 0.0F, 1.0F);
+    if (o->color_count > GLINT_MAX_COLORS) {
+        complain(c, GLINT_ERROR_RANGE, "color_count is %u, expected 0 to %d", (unsigned)o->color_count,
+                 GLINT_MAX_COLORS);
+        return;
+    }
+    for (uint32_t i = 0; i < 3 * o->color_count; i++) {
+        char name[32];
+        snprintf(name, sizeof(name), "colors[%u][%u]", (unsigned)i / 3U, (unsigned)i % 3U);
+        check(c, name, o->colors[i / 3][i % 3], 0.0F, 1.0F);
+    }
+}
+
 static void check_options(complaint *c, const glint_material_options *o)
 {
     check_enum(c, "model", (unsigned)o->model, MODEL_COUNT - 1);
@@ -183,6 +199,9 @@ static void check_options(complaint *c, const glint_material_options *o)
     check(c, "facet_alpha", o->facet_alpha, 0.0F, 1.0F);
     check(c, "coverage", o->coverage, 0.0F, 1.0F);
     check(c, "elongation", o->elongation, 1.0F, 1e4F);
+    check(c, "density_variation", o->density_variation, 0.0F, 8.0F);
+    check(c, "max_anisotropy", o->max_anisotropy, 1.0F, 16.0F);
+    check_colors(c, o);
     if (o->fresnel == GLINT_FRESNEL_DIELECTRIC)
         check(c, "ior", o->ior, 1.0001F, 10.0F);
     if (o->fresnel == GLINT_FRESNEL_CONDUCTOR)
@@ -199,6 +218,7 @@ static uint32_t wanted_features(const glint_material_options *o)
 {
     return (o->distribution == GLINT_DISTRIBUTION_GGX ? GLINT_FEATURE_GGX : GLINT_FEATURE_BECKMANN) |
            (o->surface.alpha_x != o->surface.alpha_y ? GLINT_FEATURE_ANISOTROPIC : 0U) |
+           (o->color_variation > 0.0F || o->color_count > 0U ? GLINT_FEATURE_COLOR : 0U) |
            (o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? GLINT_FEATURE_EQUAL_AREA : GLINT_FEATURE_EQUAL_PROJECTED_AREA);
 }
 
@@ -326,7 +346,8 @@ static glint_surface clamp_surface(const glint_surface *s)
 }
 
 /* Fills all of *c but wi. False: there is nothing to see from wo. */
-static int begin(checked *c, const glint_material *material, const glint_surface *surface, const float wo[3])
+static int begin(checked *c, const glint_material *material, const glint_surface *surface,
+                 const glint_footprint *footprint, const float wo[3])
 {
     if (!material || !wo)
         return 0;
@@ -335,15 +356,15 @@ static int begin(checked *c, const glint_material *material, const glint_surface
     c->query = (model_query){ .material = material,
                               .surface = surface ? &c->surface : &material->options.surface,
                               .total_area = surface ? 0.0F : material->total_area,
+                              .footprint = footprint && is_usable(footprint) ? footprint : NULL,
                               .wo = vec3_from(wo) };
     return is_unit(c->query.wo) && c->query.wo.z > 0.0F;
 }
 
 /* The light's side. False: wi is not lit. */
-static int light_up(checked *c, const glint_footprint *footprint, const float wi[3], float solid_angle_sr)
+static int light_up(checked *c, const float wi[3], float solid_angle_sr)
 {
     c->query.wi = vec3_from(wi);
-    c->query.footprint = footprint && is_usable(footprint) ? footprint : NULL;
     c->query.solid_angle_sr = clamp_to(solid_angle_sr, 0.0F, 6.28318531F);
     return is_unit(c->query.wi) && c->query.wi.z > 0.0F;
 }
@@ -361,7 +382,7 @@ void glint_eval_value(const glint_material *material, const glint_surface *surfa
 {
     checked c;
     *value = (glint_value){ 0 };
-    if (!wi || !begin(&c, material, surface, wo) || !light_up(&c, footprint, wi, light ? light->solid_angle_sr : 0.0F))
+    if (!wi || !begin(&c, material, surface, footprint, wo) || !light_up(&c, wi, light ? light->solid_angle_sr : 0.0F))
         return;
     material->model->eval(&c.query, value);
     make_finite(value);
@@ -375,12 +396,13 @@ void glint_eval(const glint_material *material, const glint_surface *surface, co
     memcpy(rgb, value.rgb, sizeof(value.rgb));
 }
 
-int glint_sample_direction(const glint_material *material, const glint_surface *surface, const float wo[3],
-                           const float random[3], glint_sample *sample)
+int glint_sample_direction(const glint_material *material, const glint_surface *surface,
+                           const glint_footprint *footprint, const float wo[3], const float random[3],
+                           glint_sample *sample)
 {
     checked c;
     *sample = (glint_sample){ { 0 }, 0, { 0 } };
-    if (!random || !begin(&c, material, surface, wo))
+    if (!random || !begin(&c, material, surface, footprint, wo))
         return 0;
     float u[3];
     for (int i = 0; i < 3; i++)
@@ -388,10 +410,11 @@ int glint_sample_direction(const glint_material *material, const glint_surface *
     return material->model->sample(&c.query, u, sample);
 }
 
-float glint_pdf(const glint_material *material, const glint_surface *surface, const float wo[3], const float wi[3])
+float glint_pdf(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,
+                const float wo[3], const float wi[3])
 {
     checked c;
-    if (!wi || !begin(&c, material, surface, wo) || !light_up(&c, NULL, wi, 0.0F))
+    if (!wi || !begin(&c, material, surface, footprint, wo) || !light_up(&c, wi, 0.0F))
         return 0.0F;
     return clamp_to(material->model->pdf(&c.query), 0.0F, 3e38F);
 }
@@ -434,8 +457,8 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->dvdy[i],
                                               batch->seed ? batch->seed[i] : 0U };
             batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
-            if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, wo) ||
-                !light_up(&c[j], &footprint[j], wi, batch->solid_angle_sr[i]))
+            if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
+                !light_up(&c[j], wi, batch->solid_angle_sr[i]))
                 continue;
             query[lit] = c[j].query;
             index[lit++] = i;

@@ -52,7 +52,8 @@ GLINT_API const char *glint_result_text(glint_result result);
 typedef enum glint_model {
     GLINT_MODEL_SMOOTH = 0, /* infinitely many facets: Cook-Torrance */
     GLINT_MODEL_COUNTING,   /* a binomial count of the lit facets under the footprint */
-    GLINT_MODEL_EXPLICIT    /* every facet under the footprint, one by one: the truth, slow */
+    GLINT_MODEL_EXPLICIT,   /* every facet under the footprint, one by one: the truth, slow */
+    GLINT_MODEL_DICTIONARY  /* a normalised distribution of hundreds of lobes for each patch; V-cavity masking */
 } glint_model;
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
@@ -60,11 +61,13 @@ typedef enum glint_feature {
     GLINT_FEATURE_DISCRETE = 1 << 0, /* shows single facets */
     GLINT_FEATURE_GGX = 1 << 1,
     GLINT_FEATURE_BECKMANN = 1 << 2,
-    GLINT_FEATURE_ANISOTROPIC = 1 << 3,         /* alpha_x != alpha_y */
-    GLINT_FEATURE_SAMPLE = 1 << 4,              /* sample and pdf */
-    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,     /* a glint_surface may differ from point to point */
-    GLINT_FEATURE_EQUAL_AREA = 1 << 6,          /* facets of equal area */
-    GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7 /* facets of equal projected area */
+    GLINT_FEATURE_ANISOTROPIC = 1 << 3,          /* alpha_x != alpha_y */
+    GLINT_FEATURE_SAMPLE = 1 << 4,               /* sample and pdf */
+    GLINT_FEATURE_VARYING_SURFACE = 1 << 5,      /* a glint_surface may differ from point to point */
+    GLINT_FEATURE_EQUAL_AREA = 1 << 6,           /* facets of equal area */
+    GLINT_FEATURE_EQUAL_PROJECTED_AREA = 1 << 7, /* facets of equal projected area */
+    GLINT_FEATURE_SAMPLE_FOOTPRINT = 1 << 8,     /* sample and pdf know the facets under a footprint */
+    GLINT_FEATURE_COLOR = 1 << 9                 /* facets of different colours */
 } glint_feature;
 
 /* How many models there are; their numbers run from 0. */
@@ -114,6 +117,8 @@ typedef struct glint_allocator {
     void *user;
 } glint_allocator;
 
+enum { GLINT_MAX_COLORS = 8 };
+
 typedef struct glint_material_options {
     size_t size; /* set by GLINT_MATERIAL_OPTIONS_INIT */
     glint_model model;
@@ -131,6 +136,11 @@ typedef struct glint_material_options {
     glint_facet_hash facet_hash; /* explicit model */
     uint32_t facet_limit;        /* explicit model: cells that one footprint may touch, at most 1e8; beyond it
                                            glint_value.over_limit is set: a client that wants the truth must look */
+    float density_variation;     /* [0, 8], standard deviation over cells of log4 of the density; dictionary only */
+    float max_anisotropy;        /* [1, 16], a footprint longer than so many widths is widened; dictionary only */
+    float color_variation;       /* [0, 1], how far the hue of a facet strays from the base colour; dictionary only */
+    uint32_t color_count;        /* [0, GLINT_MAX_COLORS], how many of the colors there are; dictionary only */
+    float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -142,7 +152,12 @@ typedef struct glint_material_options {
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
-            1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U                                             \
+            1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
+        {                                                                                                              \
+            {                                                                                                          \
+                0.0F, 0.0F, 0.0F                                                                                       \
+            }                                                                                                          \
+        }                                                                                                              \
     }
 
 typedef struct glint_material glint_material;
@@ -193,7 +208,8 @@ typedef struct glint_value {
  * light      NULL or with a solid angle that is not positive: the smooth limit
  *
  * Returns linear RGB, zero where wo or wi is below the horizon.
- * L_smooth * b(N, p) / (N p), b a binomial count: Kneiphof and Klein 2024, Eq. 21.
+ * counting: L_smooth * b(N, p) / (N p), b a binomial count (Kneiphof and Klein 2024, Eq. 21).
+ * dictionary: F D G2 / (4 cos_o), D the distribution of the patch (Chermain et al. 2020, Eq. 14).
  */
 GLINT_API void glint_eval(const glint_material *material, const glint_surface *surface,
                           const glint_footprint *footprint, const float wo[3], const float wi[3],
@@ -207,21 +223,26 @@ GLINT_API void glint_eval_value(const glint_material *material, const glint_surf
 typedef struct glint_sample {
     float wi[3];
     float pdf;       /* per steradian */
-    float weight[3]; /* smooth f(wo, wi) * |cos theta_i| / pdf: the mean over seeds */
+    float weight[3]; /* f(wo, wi) * |cos theta_i| / pdf, f as described at glint_sample_direction */
 } glint_sample;
 
-/* Draws wi from a density close to the smooth lobes (visible normals of the facets, cosine for the diffuse part).
+/* Draws wi from a density close to the reflection (visible normals of the facets, cosine for the diffuse part).
  *
- * random  three uniforms in [0, 1): the lobe and the direction
+ * footprint  A model with GLINT_FEATURE_SAMPLE_FOOTPRINT draws from the facets under it, and f in the weight is what
+ *            glint_eval gives for that footprint. For other models, and where it is NULL or degenerate, density and f
+ *            are the smooth ones: the mean over seeds.
+ * random     three uniforms in [0, 1): the lobe and the direction
  *
- * Returns 1, or 0 when there is no light that way (then *sample is all zero). Heitz 2018; Dupuy and Benyoub 2023.
+ * Returns 1, or 0 when there is no light that way (then *sample is all zero). Heitz 2018; Dupuy and Benyoub 2023; Heitz
+ * and d'Eon 2014.
  */
-GLINT_API int glint_sample_direction(const glint_material *material, const glint_surface *surface, const float wo[3],
-                                     const float random[3], glint_sample *sample);
+GLINT_API int glint_sample_direction(const glint_material *material, const glint_surface *surface,
+                                     const glint_footprint *footprint, const float wo[3], const float random[3],
+                                     glint_sample *sample);
 
 /* Density with which glint_sample_direction draws wi, per steradian. */
-GLINT_API float glint_pdf(const glint_material *material, const glint_surface *surface, const float wo[3],
-                          const float wi[3]);
+GLINT_API float glint_pdf(const glint_material *material, const glint_surface *surface,
+                          const glint_footprint *footprint, const float wo[3], const float wi[3]);
 
 /* Many points under one light each, as a structure of arrays of count entries. */
 typedef struct glint_batch {

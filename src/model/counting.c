@@ -8,6 +8,7 @@
 #define GLINT_LANES 1
 #include "math/hash.h"
 #include "model/lobe.h"
+#include "model/stretch.h"
 
 enum { CHUNK = 64 }; /* points gathered for the kernel at a time; a multiple of every width */
 
@@ -45,22 +46,20 @@ static int is_discrete(const model_query *q)
            q->surface->facets_per_m2 > 0.0F;
 }
 
-/* Fills entry i. A facet of this elongation is longer along u and narrower along v by its square root, so that its area
- * and the density stay: the surface is shrunk and stretched the other way. */
+/* Fills entry i. */
 static void gather(const model_query *q, const lobe_value *lobe, gathered *g, size_t i)
 {
     const float solid_angle = lobe_lit_solid_angle(q, lobe);
     const glint_material_options *o = &q->material->options;
-    const float stretch = sqrtf(o->elongation), shrink = 1.0F / stretch;
-    const glint_footprint *f = q->footprint;
-    g->u[i] = f->u * (double)shrink;
-    g->v[i] = f->v * (double)stretch;
-    g->dudx[i] = f->dudx * shrink;
-    g->dudy[i] = f->dudy * shrink;
-    g->dvdx[i] = f->dvdx * stretch;
-    g->dvdy[i] = f->dvdy * stretch;
+    const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
+    g->u[i] = f.u;
+    g->v[i] = f.v;
+    g->dudx[i] = f.dudx;
+    g->dudy[i] = f.dudy;
+    g->dvdx[i] = f.dvdx;
+    g->dvdy[i] = f.dvdy;
     g->density[i] = q->surface->facets_per_m2;
-    g->seed[i] = hash_full(o->seed * HASH_X + f->seed * HASH_Y);
+    g->seed[i] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
     g->hx[i] = lobe->h.x;
     g->hy[i] = lobe->h.y;
     g->cap[i] = solid_angle * lobe->h.z;

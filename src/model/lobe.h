@@ -9,6 +9,7 @@
 typedef struct lobe_value {
     float specular[3];
     float diffuse[3];
+    float fresnel[3];     /* reflectance of one facet */
     float reflectance[3]; /* specular over density: coverage F G2 / (4 cos_o) */
     vec3 h;               /* unit half vector */
     float h_dot_wi;
@@ -29,6 +30,12 @@ float lobe_lit_solid_angle(const model_query *q, const lobe_value *value);
  * 12), the integral of D(h)(n.h) for facets of equal projected area. D is taken as constant over the solid angle (Eq.
  * 20). */
 float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr);
+
+/* Chance that sampling takes the facets rather than the base, in [0, 1]. */
+float lobe_specular_chance(const model_query *q);
+
+/* Cosine-distributed direction for the base. */
+vec3 lobe_sample_base(float u1, float u2);
 
 int lobe_sample(const model_query *q, const float random[3], glint_sample *sample);
 float lobe_pdf(const model_query *q);

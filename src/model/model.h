@@ -24,7 +24,7 @@ typedef struct model_query {
     const glint_surface *surface;
     float total_area;                 /* D_H of this surface; 0: not known yet */
     const glint_footprint *footprint; /* NULL: the smooth limit */
-    float solid_angle_sr;             /* of the light; 0: the smooth limit */
+    float solid_angle_sr;             /* of the light; 0: the smooth limit. Sampling and its density have no light */
     vec3 wo, wi;
 } model_query;
 
@@ -48,5 +48,6 @@ struct model {
 extern const struct model smooth_model;
 extern const struct model counting_model;
 extern const struct model explicit_model;
+extern const struct model dictionary_model;
 
 #endif

@@ -19,7 +19,8 @@ static void smooth_eval_many(const model_query *q, size_t count, glint_value *va
 const struct model smooth_model = {
     .name = "smooth",
     .features = GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC | GLINT_FEATURE_SAMPLE |
-                GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA | GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+                GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA | GLINT_FEATURE_EQUAL_PROJECTED_AREA |
+                GLINT_FEATURE_COLOR,
     .eval = smooth_eval,
     .eval_many = smooth_eval_many,
     .sample = lobe_sample,

@@ -102,7 +102,7 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
         surface.diffuse[c] *= p->occlusion;
 
     glint_sample sample;
-    if (!glint_sample_direction(layer->material, &surface, layer->wo, random, &sample))
+    if (!glint_sample_direction(layer->material, &surface, NULL, layer->wo, random, &sample))
         return false;
     out->wi = to_world(layer, sample.wi);
     out->pdf = sample.pdf * share;

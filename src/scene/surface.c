@@ -107,6 +107,9 @@ static glint_material_options layer_options(const scene_material *m, glint_model
         o.facet_alpha = m->glint.facet_roughness * m->glint.facet_roughness;
         o.coverage = m->glint.coverage;
         o.elongation = m->glint.elongation;
+        o.density_variation = fminf(m->glint.density_variation, 8.0F); /* glTF sets no upper bound */
+        if (model == GLINT_MODEL_DICTIONARY) /* the one with GLINT_FEATURE_COLOR */
+            o.color_variation = m->glint.color_variation;
         o.seed = m->glint.seed;
     }
     const scene_texels t = scene_texels_of(m);

@@ -20,12 +20,16 @@ typedef struct model_row {
      * and exchanging the two exchanges only its middle with the viewer. */
     int reciprocal;
     double most_facets; /* that a test may put under one footprint */
+    /* Relative error of the value that more facets do not take away until there are so many that the model is smooth.
+     * dictionary: two marginals of half floats, 2^-11 each, without the last 1.6e-4 of their tails. */
+    double resolution;
 } model_row;
 
 static const model_row MODELS[] = {
-    { GLINT_MODEL_SMOOTH, 1, 1e18 },
-    { GLINT_MODEL_COUNTING, 1, 1e18 },
-    { GLINT_MODEL_EXPLICIT, 0, 1500.0 },
+    { GLINT_MODEL_SMOOTH, 1, 1e18, 0.0 },
+    { GLINT_MODEL_COUNTING, 1, 1e18, 0.0 },
+    { GLINT_MODEL_EXPLICIT, 0, 1500.0, 0.0 },
+    { GLINT_MODEL_DICTIONARY, 1, 1e18, 1.3e-3 },
 };
 
 typedef struct configuration {
@@ -57,6 +61,10 @@ static inline configuration configuration_of(glint_model model, int i)
         o.surface.alpha_x = 0.4F;
         o.surface.alpha_y = 0.1F;
     }
+    if (i == 3) {
+        o.density_variation = 1.0F;
+        o.max_anisotropy = 8.0F;
+    }
     if (i == 4) {
         o.weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
         o.facet_alpha = 0.02F;
@@ -75,6 +83,12 @@ static inline configuration configuration_of(glint_model model, int i)
         o.surface.discreteness = 0.5F;
         for (int c = 0; c < 3; c++)
             o.surface.f0[c] = 0.2F + 0.3F * (float)c;
+        if (glint_model_features(model) & GLINT_FEATURE_COLOR) {
+            o.color_variation = 0.5F;
+            o.color_count = 2;
+            o.colors[0][0] = o.colors[1][1] = o.colors[1][2] = 0.8F;
+            o.colors[0][1] = o.colors[1][0] = 0.3F;
+        }
     }
     return (configuration){ names[i], o };
 }

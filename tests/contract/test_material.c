@@ -29,6 +29,9 @@ static void bad_options_are_named_with_their_range(void **state)
         CASE(facet_alpha, -1.0F, GLINT_ERROR_RANGE, "facet_alpha is -1, expected 0 to 1"),
         CASE(coverage, 1.01F, GLINT_ERROR_RANGE, "coverage is 1.01, expected 0 to 1"),
         CASE(elongation, 0.5F, GLINT_ERROR_RANGE, "elongation is 0.5, expected 1 to 10000"),
+        CASE(density_variation, 9.0F, GLINT_ERROR_RANGE, "density_variation is 9, expected 0 to 8"),
+        CASE(max_anisotropy, 0.5F, GLINT_ERROR_RANGE, "max_anisotropy is 0.5, expected 1 to 16"),
+        CASE(color_variation, -0.5F, GLINT_ERROR_RANGE, "color_variation is -0.5, expected 0 to 1"),
     };
 #undef CASE
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
@@ -40,6 +43,26 @@ static void bad_options_are_named_with_their_range(void **state)
         assert_null(m);
         assert_string_equal(message, cases[i].expected);
     }
+}
+
+static void bad_colors_are_named_by_their_place(void **state)
+{
+    (void)state;
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.model = GLINT_MODEL_DICTIONARY;
+    o.color_count = 9;
+    glint_material *m;
+    char message[200];
+    assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), GLINT_ERROR_RANGE);
+    assert_string_equal(message, "color_count is 9, expected 0 to 8");
+    o.color_count = 8;
+    o.colors[7][2] = 1.5F;
+    assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), GLINT_ERROR_RANGE);
+    assert_string_equal(message, "colors[7][2] is 1.5, expected 0 to 1");
+    /* What is not counted is not looked at. */
+    o.color_count = 7;
+    assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), GLINT_OK);
+    glint_material_destroy(m);
 }
 
 static void unknown_enum_values_are_refused(void **state)
@@ -103,7 +126,8 @@ static void any_failed_allocation_is_reported_and_leaves_nothing(void **state)
         o.allocator = (glint_allocator){ counted_allocate, counted_release, &c };
         glint_material *m = create(&o);
         const int needed = c.allocations;
-        assert_true(needed > 0 && c.live == needed);
+        /* Set-up may give back some of it at once. */
+        assert_true(needed > 0 && c.live > 0 && c.live <= needed);
         glint_material_destroy(m);
         assert_int_equal(c.live, 0);
         for (int n = 0; n < needed; n++) {
@@ -151,6 +175,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_options_are_named_with_their_range),
+        cmocka_unit_test(bad_colors_are_named_by_their_place),
         cmocka_unit_test(unknown_enum_values_are_refused),
         cmocka_unit_test(wrong_size_is_refused_and_short_messages_are_cut),
         cmocka_unit_test(any_failed_allocation_is_reported_and_leaves_nothing),

@@ -125,9 +125,9 @@ static void random_bits_are_sane(void **state)
         glint_eval_value(m, &s, &f, wo, wi, &light, &v);
         assert_sane(&v);
         glint_sample sample;
-        glint_sample_direction(m, &s, wo, u, &sample);
+        glint_sample_direction(m, &s, &f, wo, u, &sample);
         v = (glint_value){ { sample.weight[0], sample.weight[1], sample.weight[2] },
-                           { sample.pdf, glint_pdf(m, &s, wo, wi), 0.0F },
+                           { sample.pdf, glint_pdf(m, &s, &f, wo, wi), 0.0F },
                            0.0F,
                            0.0F,
                            0 };

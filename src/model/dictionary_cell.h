@@ -1,0 +1,67 @@
+/* The slope distribution of one cell: two marginals of the dictionary, rotated and scaled to the surface's roughness.
+ *
+ * Chermain et al. 2020, sections 4 and 5 and algorithm 3.
+ */
+#ifndef MODEL_DICTIONARY_CELL_H
+#define MODEL_DICTIONARY_CELL_H
+
+#include "model/dictionary_table.h"
+#include "ndf/ndf.h"
+
+/* Slopes of a facet, along and across the tangent: (-x, -y) / z of its normal. */
+typedef struct slope {
+    float x, y;
+} slope;
+
+/* What all cells of one footprint share. */
+typedef struct dictionary_surface {
+    const dictionary *table;
+    ndf target;
+    float coverage;          /* beta */
+    float density_variation; /* zeta */
+} dictionary_surface;
+
+/* One product of marginals. GGX is a mixture of several with different scales, Beckmann has one. */
+typedef struct dictionary_lobes {
+    float weight; /* share of the cell's facets; those of a cell sum to 1 */
+    float scale;  /* slopes of the dictionary over slopes of the surface, on top of roughness */
+    float cosine, sine;
+    const uint16_t *along, *across; /* marginals; NULL: the target, a Gaussian */
+} dictionary_lobes;
+
+enum { DICTIONARY_MAX_SCALES = 12 };
+
+typedef struct dictionary_cell_slopes {
+    float facets; /* how many the cell has, at least 1 */
+    int count;    /* 0: so many that the cell has the target's slopes */
+    dictionary_lobes lobes[DICTIONARY_MAX_SCALES];
+} dictionary_cell_slopes;
+
+/* Share of the cell with this hash that carries facets, in [0, 1]; its mean over hashes is the surface's coverage.
+ * grain_level: see dictionary_patch. */
+float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash, int grain_level);
+
+/* Fills *s for a cell with facets. log4_facets: see dictionary_patch; coverage > 0: of this cell. */
+void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
+                          float log4_facets, float coverage);
+
+/* Whether every cell with so many facets has the target's slopes and the mean coverage, whatever its hash. */
+int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets);
+
+/* P22 of a cell that is not the target's, in 1 / slope^2; its integral over the plane is 1. */
+float dictionary_cell_density(const dictionary_cell_slopes *s, const ndf *target, slope at);
+
+/* A slope with that density; *choice, u1 and u2 uniform in [0, 1). *choice is uniform again afterwards. */
+slope dictionary_cell_sample(const dictionary_cell_slopes *s, const ndf *target, float *choice, float u1, float u2);
+
+/* A slope of the target itself. */
+slope dictionary_target_sample(const ndf *target, float u1, float u2);
+
+/* Takes the share `from` to `to` of the uniform's range: what is left of it is uniform in [0, 1) again. */
+static inline float uniform_within(float u, float from, float to)
+{
+    const float rest = (u - from) / (to - from);
+    return rest < 0.0F ? 0.0F : rest < 0.99999994F ? rest : 0.99999994F;
+}
+
+#endif

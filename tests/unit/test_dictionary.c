@@ -1,0 +1,314 @@
+/* The dictionary's table and the cells under a footprint: integrals, lobes, mean, places. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "model/dictionary_cell.h"
+#include "model/dictionary_patch.h"
+#include "statistics.h"
+
+#define PI 3.14159265358979323846
+
+/* FNV-1a of the table of seed 1. */
+#define KNOWN 0xe3cc6f6bcbb802c0ULL
+
+static dictionary table;
+static dictionary_scratch scratch;
+
+static void built_in_time_and_memory(void **state)
+{
+    (void)state;
+    const clock_t start = clock();
+    dictionary_build(&table, &scratch, 1);
+    const double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    printf("built in %.3f s of one core, %zu bytes\n", seconds, sizeof(table));
+    assert_true(sizeof(table) <= (size_t)384 * 1024);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    assert_true(seconds < 1.0);
+#endif
+}
+
+static uint64_t fnv1a(const void *bytes, size_t count)
+{
+    uint64_t h = 0xcbf29ce484222325U;
+    for (size_t i = 0; i < count; i++)
+        h = (h ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3U;
+    return h;
+}
+
+/* The number was found once, with gcc 12 at -O3; every compiler and machine must find it again. */
+static void seed_alone_decides_every_bit(void **state)
+{
+    (void)state;
+    dictionary_build(&table, &scratch, 1);
+    const uint64_t first = fnv1a(&table, sizeof(table));
+    dictionary_build(&table, &scratch, 2);
+    assert_true(fnv1a(&table, sizeof(table)) != first);
+    if (first != KNOWN)
+        fail_msg("the table of seed 1 has the hash %#llx", (unsigned long long)first);
+}
+
+/* Simpson's rule in double on 16 points a sample, which knows nothing about where the samples are. */
+static double integral(const dictionary_marginal marginal)
+{
+    enum { STEPS = 16 * DICTIONARY_SAMPLES };
+    const double h = (double)DICTIONARY_DOMAIN / STEPS;
+    double sum = 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        const double a = (double)dictionary_density(marginal, (float)(i * h));
+        const double m = (double)dictionary_density(marginal, (float)((i + 0.5) * h));
+        const double b = (double)dictionary_density(marginal, (float)((i + 1) * h));
+        sum += (a + 4.0 * m + b) * h / 6.0;
+    }
+    return 2.0 * sum;
+}
+
+static void every_marginal_integrates_to_one(void **state)
+{
+    (void)state;
+    dictionary_build(&table, &scratch, 3);
+    double worst = 0.0;
+    for (int l = 0; l < DICTIONARY_LEVELS; l++)
+        for (int i = 0; i < DICTIONARY_MARGINALS; i++)
+            worst = fmax(worst, fabs(integral(table.marginal[l][i]) - 1.0));
+    printf("largest deviation from 1: %.1e (bound 3e-4)\n", worst);
+    assert_true(worst < 3e-4);
+}
+
+/* Peaks at least least high. */
+static int count_lobes(const dictionary_marginal marginal, float least)
+{
+    int lobes = 0;
+    const float h = DICTIONARY_DOMAIN / DICTIONARY_SAMPLES;
+    for (int i = 0; i < DICTIONARY_SAMPLES; i++) {
+        const float before = dictionary_density(marginal, (float)(i - 1) * h); /* of i = 0 the mirror image */
+        const float here = dictionary_density(marginal, (float)i * h);
+        if (here < least)
+            continue;
+        lobes += here > before && here >= dictionary_density(marginal, (float)(i + 1) * h);
+    }
+    return lobes;
+}
+
+/* Level l has the lobes of level l - 1, half as high, and as many new ones. */
+static void lobes_double_from_level_to_level_and_stay(void **state)
+{
+    (void)state;
+    const float h = DICTIONARY_DOMAIN / DICTIONARY_SAMPLES;
+    dictionary_build(&table, &scratch, 4);
+    for (int i = 0; i < DICTIONARY_MARGINALS; i++) {
+        /* One of 2^l lobes of sigma .02 with its mirror image is 10 / 2^l high, and .86 of that at the nearest sample.
+         */
+        assert_int_equal(count_lobes(table.marginal[0][i], 8.0F), 1);
+        for (int l = 1; l < DICTIONARY_LEVELS; l++) {
+            assert_true(count_lobes(table.marginal[l][i], ldexpf(8.0F, -l)) <= 1 << l);
+            for (float x = 0.0F; x < DICTIONARY_DOMAIN; x += 0.01F) {
+                const float before = dictionary_density(table.marginal[l - 1][i], x);
+                const float now = dictionary_density(table.marginal[l][i], x);
+                /* A lobe's tails end between 3.3 and 4.4 sigmas, 5e-4 of it. Rounding to half is 2^-11 of a sample and
+                 * of what its inner neighbour passed on, and there is nothing below 6e-5. */
+                const float inner = fabsf(x - h);
+                const float largest =
+                    fmaxf(fmaxf(before, now), fmaxf(dictionary_density(table.marginal[l - 1][i], inner),
+                                                    dictionary_density(table.marginal[l][i], inner)));
+                assert_true(now >= 0.5F * before * (1.0F - 5e-4F) - 0x1p-10F * largest - 1.3e-4F);
+            }
+        }
+    }
+}
+
+static void quantiles_invert_the_integral(void **state)
+{
+    (void)state;
+    dictionary_build(&table, &scratch, 5);
+    uint64_t random = 1;
+    for (int k = 0; k < 2000; k++) {
+        const uint64_t pick = random_bits(&random);
+        const uint16_t *marginal = table.marginal[pick % DICTIONARY_LEVELS][pick / 16 % DICTIONARY_MARGINALS];
+        const float u = (float)random_uniform(&random) * 0.9999999F;
+        const double x = (double)dictionary_quantile(marginal, u);
+        const int steps = 4000;
+        double below = 0.0;
+        for (int i = 0; i < steps; i++)
+            below += (double)dictionary_density(marginal, (float)((i + 0.5) * fabs(x) / steps)) * fabs(x) / steps;
+        /* 3e-6 from the area of the half floats, the midpoint rule at kinks and u in float. */
+        assert_true(fabs(0.5 + copysign(below, x) - (double)u) < 2e-5);
+    }
+}
+
+/* The average over cells is the surface's own distribution at every slope, whatever the number of facets. Seeds are
+ * independent, cells of one seed share its marginals: the error is that of the mean over seeds. */
+static void mean_over_cells_is_the_target(void **state)
+{
+    (void)state;
+    enum { SEEDS = 24, CELLS = 12000, SLOPES = 6 };
+    static const double slopes[SLOPES][2] = { { 0, 0 },     { 0.7, 0 },    { 0, 0.7 },
+                                              { 0.9, 0.6 }, { -1.1, 0.4 }, { 0.3, 1.2 } };
+    static const float facets[] = { 1.0F, 20.0F, 1e4F };
+    const double ax = 0.4, ay = 0.1;
+    moments mean[2][3][SLOPES] = { { { { 0 } } } };
+    for (uint32_t seed = 0; seed < SEEDS; seed++) {
+        dictionary_build(&table, &scratch, seed);
+        for (int k = 0; k < 2; k++)
+            for (int f = 0; f < 3; f++) {
+                const dictionary_surface s = {
+                    &table, { k ? NDF_BECKMANN : NDF_GGX, (float)ax, (float)ay }, 1.0F, 0.0F
+                };
+                double sum[SLOPES] = { 0.0 };
+                uint64_t random = (uint64_t)seed << 8 | (uint64_t)(3 * k + f);
+                for (int c = 0; c < CELLS; c++) {
+                    dictionary_cell_slopes cell;
+                    dictionary_cell_find(&cell, &s, (uint32_t)random_bits(&random), 0.5F * log2f(facets[f]), 1.0F);
+                    for (int i = 0; i < SLOPES; i++)
+                        sum[i] += (double)dictionary_cell_density(
+                            &cell, &s.target, (slope){ (float)(slopes[i][0] * ax), (float)(slopes[i][1] * ay) });
+                }
+                for (int i = 0; i < SLOPES; i++) {
+                    const double r2 = slopes[i][0] * slopes[i][0] + slopes[i][1] * slopes[i][1];
+                    const double target = (k ? exp(-r2) : 1.0 / ((1.0 + r2) * (1.0 + r2))) / (PI * ax * ay);
+                    moments_add(&mean[k][f][i], sum[i] / CELLS / target);
+                }
+            }
+    }
+    printf("mean over cells / target, in sigmas of 24 seeds\n");
+    int failed = 0;
+    for (int k = 0; k < 2; k++)
+        for (int f = 0; f < 3; f++) {
+            printf("%-8s %5g facets:", k ? "Beckmann" : "GGX", (double)facets[f]);
+            for (int i = 0; i < SLOPES; i++) {
+                const moments *m = &mean[k][f][i];
+                const double error = m->mean - 1.0, sigma = moments_standard_error(m);
+                printf("  %.4f %+.1f", m->mean, error / sigma);
+                /* Student's t of 23 degrees of freedom: 4.9 sigmas for 36 means is a significance of .002. 1.3e-3: see
+                 * the resolution in configurations.h. */
+                failed += fabs(error) > 4.9 * sigma + 1.3e-3;
+            }
+            printf("\n");
+        }
+    assert_int_equal(failed, 0);
+}
+
+/* ---- patches ---- */
+
+static dictionary_patch patch, other;
+
+static int has_cell(const dictionary_patch *p, uint32_t hash, int level)
+{
+    for (int i = 0; i < p->count; i++)
+        if (p->cell[i].hash == hash && p->cell[i].level == level)
+            return 1;
+    return 0;
+}
+
+static glint_footprint ellipse_at(double u, double v, double major, double minor, double turn)
+{
+    return (glint_footprint){ u,
+                              v,
+                              (float)(major * cos(turn)),
+                              (float)(-minor * sin(turn)),
+                              (float)(major * sin(turn)),
+                              (float)(minor * cos(turn)),
+                              0U };
+}
+
+static void weights_sum_to_one_and_cells_fit(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    int most = 0;
+    for (int k = 0; k < 20000; k++) {
+        const double major = random_log_between(&random, 1e-6, 1e3);
+        const glint_footprint f =
+            ellipse_at(random_between(&random, -1e3, 1e3), random_between(&random, -1e3, 1e3), major,
+                       major / random_log_between(&random, 1.0, 1e4), random_between(&random, 0.0, PI));
+        dictionary_patch_find(&patch, &f, (float)random_log_between(&random, 1e-3, 1e15),
+                              (float)random_between(&random, 1.0, DICTIONARY_MAX_ANISOTROPY), 7);
+        double sum = 0.0;
+        for (int i = 0; i < patch.count; i++) {
+            assert_true(patch.cell[i].weight >= 0.0F);
+            sum += (double)patch.cell[i].weight;
+        }
+        assert_true(fabs(sum - 1.0) < 1e-5 && patch.count > 0 && patch.grain_level[0] >= 0);
+        most = patch.count > most ? patch.count : most;
+    }
+    printf("at most %d cells, room for %d\n", most, DICTIONARY_MAX_CELLS);
+    assert_true(most <= DICTIONARY_MAX_CELLS);
+}
+
+/* A long footprint sees what small ones along its major axis see, and nothing of what lies as far away across it. */
+static void cells_lie_along_the_footprint(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int k = 0; k < 500; k++) {
+        const double u = random_between(&random, -5.0, 5.0), v = random_between(&random, -5.0, 5.0);
+        const double turn = random_between(&random, 0.0, PI);
+        const glint_footprint f = ellipse_at(u, v, 12e-3, 1e-3, turn);
+        dictionary_patch_find(&patch, &f, 1e12F, 16.0F, 7);
+        for (int side = -1; side <= 1; side += 2)
+            for (int across = 0; across < 2; across++) {
+                const double away = 7e-3 * side, direction = turn + 0.5 * PI * across;
+                const glint_footprint small =
+                    ellipse_at(u + away * cos(direction), v + away * sin(direction), 1e-4, 1e-4, 0.0);
+                /* So many facets that its finest cells are those of the long footprint's finer level. */
+                dictionary_patch_find(&other, &small, (float)pow(4.0, 10.0), 16.0F, 7);
+                int seen = 0, there = 0;
+                for (int i = 0; i < other.count; i++)
+                    if (other.cell[i].level == 0 && other.cell[i].weight > 0.15F) {
+                        there++;
+                        seen += has_cell(&patch, other.cell[i].hash, 0);
+                    }
+                assert_true(there > 0);
+                assert_int_equal(seen, across ? 0 : there);
+            }
+    }
+}
+
+/* Figure 7: a coarser cell has the hash of that one of its four children whose corner it shares. */
+static void cells_of_neighbouring_levels_share_one_index_in_four(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    double children = 0.0, shared = 0.0;
+    for (int k = 0; k < 500; k++) {
+        const double u = random_between(&random, -5.0, 5.0), v = random_between(&random, -5.0, 5.0);
+        const double size = 1.5 / 1024.0;
+        glint_footprint f = ellipse_at(u, v, size, size, 0.0);
+        dictionary_patch_find(&patch, &f, 1e12F, 4.0F, 7);
+        f = ellipse_at(u, v, 2.0 * size, 2.0 * size, 0.0);
+        dictionary_patch_find(&other, &f, 1e12F, 4.0F, 7);
+        for (int i = 0; i < patch.count; i++)
+            if (patch.cell[i].level == 1) {
+                assert_true(has_cell(&other, patch.cell[i].hash, 0));
+            } else {
+                children += 1.0;
+                shared += has_cell(&other, patch.cell[i].hash, 0);
+            }
+    }
+    /* Ellipses sit anywhere on the lattice: one child in four in the mean. 500 patches of some 12 cells, of which the
+     * number of even ones varies by about 1. */
+    printf("%.4f of the finer cells have the index of a coarser one\n", shared / children);
+    assert_true(fabs(shared / children - 0.25) < 4.0 / sqrt(500.0) / 12.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(built_in_time_and_memory),
+        cmocka_unit_test(seed_alone_decides_every_bit),
+        cmocka_unit_test(every_marginal_integrates_to_one),
+        cmocka_unit_test(lobes_double_from_level_to_level_and_stay),
+        cmocka_unit_test(quantiles_invert_the_integral),
+        cmocka_unit_test(mean_over_cells_is_the_target),
+        cmocka_unit_test(weights_sum_to_one_and_cells_fit),
+        cmocka_unit_test(cells_lie_along_the_footprint),
+        cmocka_unit_test(cells_of_neighbouring_levels_share_one_index_in_four),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
