@@ -94,7 +94,7 @@ static point_density density_at(const point *p, const glint_material_options *o,
     return d;
 }
 
-/* G2 / (4 cos_o) of Eq. 14 times cos_i / cos_i. */
+/* What f cos_i of Eq. 14 has besides F and D: G2 / (4 cos_o). */
 static float masking(const model_query *q, const lobe_value *lobe)
 {
     if (!(lobe->h.z > 0.0F))

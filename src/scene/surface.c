@@ -108,7 +108,8 @@ static glint_material_options layer_options(const scene_material *m, glint_model
         o.coverage = m->glint.coverage;
         o.elongation = m->glint.elongation;
         o.density_variation = fminf(m->glint.density_variation, 8.0F); /* glTF sets no upper bound */
-        if (model == GLINT_MODEL_DICTIONARY) /* the one with GLINT_FEATURE_COLOR */
+        /* The one with GLINT_FEATURE_COLOR. */
+        if (model == GLINT_MODEL_DICTIONARY)
             o.color_variation = m->glint.color_variation;
         o.seed = m->glint.seed;
     }
