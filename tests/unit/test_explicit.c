@@ -57,6 +57,19 @@ static void shares_add_up_and_surround_the_pixel(void **state)
     }
 }
 
+/* Deep inside a facet the pixel is a millionth of a cell, and still has its whole share there. */
+static void pixel_within_a_cell_has_all_of_it(void **state)
+{
+    (void)state;
+    for (double size = 1e-3; size > 1e-9; size *= 0.1) {
+        const coverage_pixel p = { 12345.6, -789.3, size, 0.3 * size, -0.2 * size, 0.1 * size };
+        tally t = { .least = 1.0 };
+        coverage_each(&p, tally_cell, &t);
+        assert_true(t.cells == 1.0 && fabs(t.sum - 1.0) < 1e-5);
+        assert_true(fabs(coverage_area(&p) / (0.16 * size * size) - 1.0) < 1e-12);
+    }
+}
+
 typedef struct probe {
     int64_t x, y;
     double share;
@@ -164,9 +177,8 @@ static void slopes_follow_their_weighting(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_add_up_and_surround_the_pixel),
-        cmocka_unit_test(share_of_a_cell_agrees_with_points),
-        cmocka_unit_test(hashes_are_those_of_the_renderers),
+        cmocka_unit_test(shares_add_up_and_surround_the_pixel), cmocka_unit_test(pixel_within_a_cell_has_all_of_it),
+        cmocka_unit_test(share_of_a_cell_agrees_with_points),   cmocka_unit_test(hashes_are_those_of_the_renderers),
         cmocka_unit_test(slopes_follow_their_weighting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
