@@ -14,7 +14,8 @@ typedef struct coverage_pixel {
 /* Area of the pixel in cells. */
 double coverage_area(const coverage_pixel *p);
 
-/* At least as many as the cells that the pixel touches; infinite where a cell's number would not be whole in a double. */
+/* At least as many as the cells that the pixel touches; infinite where a cell's number would not be whole in a double.
+ */
 double coverage_cell_bound(const coverage_pixel *p);
 
 /* Calls visit once for every cell that the pixel touches, row by row: cell (x, y) holds the part `share` of the pixel.
