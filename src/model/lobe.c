@@ -50,20 +50,30 @@ static float base_albedo(const model_query *q, int channel, float cos_i)
     return q->surface->diffuse[channel] * (kept < 1.0F ? kept : 1.0F);
 }
 
-void lobe_eval(const model_query *q, lobe_value *value)
+void lobe_halve(const model_query *q, lobe_value *value)
 {
-    const ndf n = ndf_of(q);
     const vec3 sum = vec3_add(q->wo, q->wi);
     value->h = vec3_normalize(sum);
     /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
     value->h_dot_wi = clamp01(0.5F * sqrtf(vec3_dot(sum, sum)));
-    value->density = ndf_density(&n, value->h);
-    const float facets = 0.25F * value->density * ndf_masking_over_cosine(&n, q->wo, q->wi);
+}
+
+void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *value)
+{
+    const float facets = 0.25F * value->density * masking_over_cosine;
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
         value->specular[c] = coverage * facet_reflectance(q, c, value->h_dot_wi) * facets;
         value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
+}
+
+void lobe_eval(const model_query *q, lobe_value *value)
+{
+    const ndf n = ndf_of(q);
+    lobe_halve(q, value);
+    value->density = ndf_density(&n, value->h);
+    lobe_shade(q, ndf_masking_over_cosine(&n, q->wo, q->wi), value);
 }
 
 float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
@@ -83,9 +93,8 @@ float lobe_lit_probability(const model_query *q, const lobe_value *value, float 
     return p < 1.0F ? p : 1.0F;
 }
 
-/* Chance that sampling takes the facets rather than the base: their shares of the light, guessed head-on to the viewer.
- */
-static float specular_chance(const model_query *q)
+/* Their shares of the light, guessed head-on to the viewer. */
+float lobe_specular_chance(const model_query *q)
 {
     float specular = 0.0F, diffuse = 0.0F;
     for (int c = 0; c < 3; c++) {
@@ -104,15 +113,15 @@ static float specular_chance(const model_query *q)
 float lobe_pdf(const model_query *q)
 {
     const ndf n = ndf_of(q);
-    const float chance = specular_chance(q);
+    const float chance = lobe_specular_chance(q);
     const vec3 h = vec3_normalize(vec3_add(q->wo, q->wi));
     /* Visible normals over the reflection's Jacobian: G1 D / (4 cos_o), G1 / cos_o = 1 / (cos_o + masked). */
     const float specular = ndf_density(&n, h) / (4.0F * (q->wo.z + ndf_masked(&n, q->wo)));
     return chance * specular + (1.0F - chance) * (q->wi.z / MATH_PI);
 }
 
-/* Cosine-distributed direction: a uniform point of the disk, lifted. */
-static vec3 cosine_direction(float u1, float u2)
+/* A uniform point of the disk, lifted. */
+vec3 lobe_cosine_direction(float u1, float u2)
 {
     const float turn = 2.0F * u1;
     float sine, cosine;
@@ -125,11 +134,11 @@ int lobe_sample(const model_query *q, const float random[3], glint_sample *sampl
 {
     const ndf n = ndf_of(q);
     model_query lit = *q;
-    if (random[0] < specular_chance(q)) {
+    if (random[0] < lobe_specular_chance(q)) {
         const vec3 h = ndf_sample_visible(&n, q->wo, random[1], random[2]);
         lit.wi = vec3_normalize(vec3_add(vec3_scale(h, 2.0F * vec3_dot(q->wo, h)), vec3_scale(q->wo, -1.0F)));
     } else {
-        lit.wi = cosine_direction(random[1], random[2]);
+        lit.wi = lobe_cosine_direction(random[1], random[2]);
     }
     if (!(lit.wi.z > 0.0F))
         return 0;

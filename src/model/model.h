@@ -47,5 +47,6 @@ struct model {
 
 extern const struct model smooth_model;
 extern const struct model counting_model;
+extern const struct model example_model;
 
 #endif
