@@ -462,7 +462,11 @@ int glint_sample_direction(const glint_material *material, const glint_surface *
     float u[3];
     for (int i = 0; i < 3; i++)
         u[i] = clamp_to(random[i], 0.0F, 0.99999994F);
-    return material->model->sample(&c.query, u, sample);
+    const int lit = material->model->sample(&c.query, u, sample);
+    /* Schlick's blend from f0 to a smaller f90 may round to a hair below zero. */
+    for (int i = 0; i < 3; i++)
+        sample->weight[i] = clamp_to(sample->weight[i], 0.0F, 3e38F);
+    return lit;
 }
 
 float glint_pdf(const glint_material *material, const glint_surface *surface, const float wo[3], const float wi[3])

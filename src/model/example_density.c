@@ -306,6 +306,11 @@ static void find_near(const example *e, const example_footprint *f, const extent
         }
 }
 
+static uint64_t every_rival(const near_list *list)
+{
+    return list->count == MOST_NEAR ? ~(uint64_t)0 : ((uint64_t)1 << list->count) - 1;
+}
+
 /* One question about one footprint. */
 typedef struct question {
     const example *e;
@@ -338,7 +343,7 @@ static void gather_cells(const question *q, const near_list *others, gathered *s
             instance n = { (float)i + 0.5F, (float)j + 0.5F, { 1, 0, 0, 1 }, { 1, 0, 0, 1 }, 0.70710678F };
             if (!others)
                 n = example_instance(q->e, q->f->cell[0], q->f->cell[1], i, j, q->seed);
-            gather_one(q, &n, others != NULL, others, others ? ~(uint64_t)0 : 0, sum);
+            gather_one(q, &n, others != NULL, others, others ? every_rival(others) : 0, sum);
         }
 }
 
@@ -356,7 +361,7 @@ float example_density(const example *e, const example_footprint *f, const float 
         near_list list;
         find_near(e, f, &q.reach, seed, &list);
         for (int k = 0; k < list.count; k++)
-            gather_one(&q, &list.at[k], 0, &list, ~((uint64_t)1 << k), &sum);
+            gather_one(&q, &list.at[k], 0, &list, every_rival(&list) & ~((uint64_t)1 << k), &sum);
         const covariance2 flat = { e->slope_variance + light_variance, 0.0F, e->slope_variance + light_variance };
         if (q.sum_mass || gaussian(flat, slope[0], slope[1]) > 0.0F)
             gather_cells(&q, &list, &sum);

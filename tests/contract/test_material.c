@@ -103,7 +103,7 @@ static void any_failed_allocation_is_reported_and_leaves_nothing(void **state)
         o.allocator = (glint_allocator){ counted_allocate, counted_release, &c };
         glint_material *m = create(&o);
         const int needed = c.allocations;
-        assert_true(needed > 0 && c.live == needed);
+        assert_true(c.live > 0 && c.live <= needed); /* some may have been given back after baking */
         glint_material_destroy(m);
         assert_int_equal(c.live, 0);
         for (int n = 0; n < needed; n++) {
