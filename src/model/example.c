@@ -263,6 +263,9 @@ static example *make_seeds(struct glint_material *material)
     e->options = o;
     e->texels = (example_texel *)(e + 1);
     e->ranges = (slope_range *)(e->texels + texels);
+    for (uint32_t level = 0; level < levels; level++)
+        e->first_tile[level] =
+            example_tiles_before(e, level < EXAMPLE_LEAST_MAP_LEVEL ? 0 : EXAMPLE_LEAST_MAP_LEVEL, level);
     e->transform = example_transform(o);
     e->from_lattice = o->placement == GLINT_EXAMPLE_TILED ? e->transform : (matrix2){ 1.0F, 0.0F, 0.0F, 1.0F };
     e->to_lattice = matrix2_inverse(e->from_lattice);

@@ -12,7 +12,7 @@
 enum {
     EXAMPLE_LEAST_SIZE = 8,
     EXAMPLE_MOST_SIZE = 256,
-    EXAMPLE_LEAST_MAP_LEVEL = 2, /* tiles of 8 x 8 texels; below, the Gaussians themselves are the cheaper code */
+    EXAMPLE_LEAST_MAP_LEVEL = 1, /* tiles of 4 x 4 texels; of 2 x 2 the four Gaussians are the shorter code */
     EXAMPLE_MOST_LEVELS = 8
 };
 
@@ -62,17 +62,18 @@ typedef struct example_texel {
 /* Seeds, maps and moments of one material. */
 typedef struct example {
     const glint_example *options;
-    uint32_t size, levels;    /* levels - 1 is the top: one tile */
-    float seed_variance;      /* sigma_h^2, example units */
-    float slope_variance;     /* sigma_r^2 and the facets' own roughness */
-    example_texel *texels;    /* size * size */
-    slope_range *ranges;      /* of tiles of the levels without a map */
-    slope_maps tiles;         /* chains of the other levels, level by level */
-    slope_maps overall;       /* one chain: the whole surface */
-    float *row_sums;          /* of the first map of overall */
-    covariance2 slope_spread; /* second moments of the slopes of the whole surface */
-    matrix2 transform;        /* M without variation */
-    matrix2 from_lattice;     /* lattice to surface: M of tiled examples, the unit matrix of scattered ones */
+    uint32_t size, levels;                    /* levels - 1 is the top: one tile */
+    uint32_t first_tile[EXAMPLE_MOST_LEVELS]; /* of each level, in ranges or in the chains of tiles */
+    float seed_variance;                      /* sigma_h^2, example units */
+    float slope_variance;                     /* sigma_r^2 and the facets' own roughness */
+    example_texel *texels;                    /* size * size */
+    slope_range *ranges;                      /* of tiles of the levels without a map */
+    slope_maps tiles;                         /* chains of the other levels, level by level */
+    slope_maps overall;                       /* one chain: the whole surface */
+    float *row_sums;                          /* of the first map of overall */
+    covariance2 slope_spread;                 /* second moments of the slopes of the whole surface */
+    matrix2 transform;                        /* M without variation */
+    matrix2 from_lattice; /* lattice to surface: M of tiled examples, the unit matrix of scattered ones */
     matrix2 to_lattice;
     void *maps_block, *codes_block; /* memory of the maps and of their codes */
 } example;

@@ -13,12 +13,14 @@
 
 /* Most that the Gaussian may vary across a tile that is taken whole, in units of its peak, and most of its mass that
  * such a tile may hold where another example covers a part of it (fit: see tests/unit/test_example_truth.c). */
-#define MOST_VARIATION 0.1F
-#define MOST_SHARED_MASS 0.05F
+#define MOST_VARIATION 0.5F
+#define MOST_SHARED_MASS 0.01F
 
 /* Footprints narrower than this many texels see the ripple of the seeds, whose sum is not quite flat: their mass is
- * summed up, and taken as one for others. */
+ * summed up, and taken as one for others. So do those of scattered examples, which leave gaps of parts of a texel where
+ * they meet, up to this many. */
 #define RIPPLE_SIGMA 0.5F
+#define SEAM_SIGMA 2.0F
 
 /* Half of the square of the reach: exponents beyond it are left out. */
 #define LAST_EXPONENT (0.5F * SLOPE_REACH * SLOPE_REACH)
@@ -27,7 +29,7 @@
  * lattice units around, one centre a cell. */
 enum { MOST_NEAR = 64 };
 
-/* A square of the example: a tile of this level, or one texel at level -1. */
+/* A tile of the example. */
 typedef struct node {
     uint16_t x, y;
     int level;
@@ -59,36 +61,24 @@ typedef struct gathered {
     float value, mass;
 } gathered;
 
-/* exp(-d^T C^-1 d / 2) / (2 pi sqrt(det C)) */
-static float gaussian(covariance2 c, float x, float y)
+/* exp(-exponent - d^T C^-1 d / 2) / (2 pi sqrt(det C)) */
+static float gaussian(covariance2 c, float x, float y, float exponent)
 {
     const float det = c.xx * c.yy - c.xy * c.xy;
-    const float e = 0.5F * (c.yy * x * x - 2.0F * c.xy * x * y + c.xx * y * y) / det;
+    const float e = exponent + 0.5F * (c.yy * x * x - 2.0F * c.xy * x * y + c.xx * y * y) / det;
     return e < 80.0F ? exp_negative(-e) / (2.0F * MATH_PI * sqrtf(det)) : 0.0F;
 }
 
-/* Eq. 6: the integral of footprint times seed is a Gaussian in the slope, moved to where in the seed the footprint
- * lies. (dx, dy) from the texel's centre to the footprint's, (gx, gy) the precision times it. */
-static float seed_density(const local_view *v, uint32_t x, uint32_t y, float gx, float gy)
+static float ground_density(const local_view *v)
 {
-    if (v->is_ground)
-        return gaussian((covariance2){ v->slope_variance, 0.0F, v->slope_variance }, v->slope[0], v->slope[1]);
-    const example_texel *t = &v->e->texels[y * v->e->size + x];
-    const float place_x = v->e->seed_variance * gx, place_y = v->e->seed_variance * gy;
-    const float mean_x = t->slope[0] + t->jacobian.xx * place_x + t->jacobian.xy * place_y;
-    const float mean_y = t->slope[1] + t->jacobian.yx * place_x + t->jacobian.yy * place_y;
-    covariance2 c = covariance2_mapped(t->jacobian, v->posterior);
-    c.xx += v->slope_variance;
-    c.yy += v->slope_variance;
-    return gaussian(c, v->slope[0] - mean_x, v->slope[1] - mean_y);
+    return gaussian((covariance2){ v->slope_variance, 0.0F, v->slope_variance }, v->slope[0], v->slope[1], 0.0F);
 }
 
 /* Whether no seed of a tile without a map can have the slope. */
 static int is_dark(const local_view *v, const node *n)
 {
     const uint32_t level = (uint32_t)n->level;
-    const slope_range *r =
-        &v->e->ranges[example_tiles_before(v->e, 0, level) + n->y * example_tiles_along(v->e, level) + n->x];
+    const slope_range *r = &v->e->ranges[v->e->first_tile[level] + n->y * example_tiles_along(v->e, level) + n->x];
     const float reach = SLOPE_REACH * sqrtf(v->slope_variance);
     return v->slope[0] < r->low[0] - reach || v->slope[0] > r->high[0] + reach || v->slope[1] < r->low[1] - reach ||
            v->slope[1] > r->high[1] + reach;
@@ -98,10 +88,9 @@ static int is_dark(const local_view *v, const node *n)
 static float tile_density(const local_view *v, const node *n)
 {
     if (v->is_ground)
-        return seed_density(v, 0, 0, 0.0F, 0.0F);
+        return ground_density(v);
     const uint32_t level = (uint32_t)n->level;
-    const uint32_t chain =
-        example_tiles_before(v->e, EXAMPLE_LEAST_MAP_LEVEL, level) + n->y * example_tiles_along(v->e, level) + n->x;
+    const uint32_t chain = v->e->first_tile[level] + n->y * example_tiles_along(v->e, level) + n->x;
     return slope_maps_density(&v->e->tiles, chain, v->slope_variance, v->slope[0], v->slope[1]);
 }
 
@@ -157,18 +146,14 @@ static void to_frame(const local_view *v, float x, float y, float frame[2])
     frame[1] = v->self->y + m.yx * (x - 0.5F) + m.yy * (y - 0.5F);
 }
 
-/* Share of a square that the example owns: of its quarters, or of itself where it is a texel. */
+/* Share of a tile that the example owns, by its quarters. */
 static float owned_share(const local_view *v, const node *n, float x, float y, float side)
 {
-    float at[2];
     if (!n->rivals)
         return 1.0F;
-    if (n->level < 0) {
-        to_frame(v, x, y, at);
-        return owns_point(v, n->rivals, at[0], at[1]) ? 1.0F : 0.0F;
-    }
     int owned = 0;
     for (int k = 0; k < 4; k++) {
+        float at[2];
         to_frame(v, x + (k & 1 ? 0.25F : -0.25F) * side, y + (k & 2 ? 0.25F : -0.25F) * side, at);
         owned += owns_point(v, n->rivals, at[0], at[1]);
     }
@@ -177,60 +162,100 @@ static float owned_share(const local_view *v, const node *n, float x, float y, f
 
 /* ---- descent ---- */
 
-/* What becomes of a square. */
-typedef enum step { STEP_SKIP, STEP_TAKE, STEP_DESCEND } step;
-
-/* Takes a square, or says that its quarters are to be looked at. */
-static step look_at(const local_view *v, node *n, gathered *sum)
+/* Eq. 6 for one texel: the integral of footprint times seed is a Gaussian in the slope, moved to where in the seed the
+ * footprint lies. */
+static void take_texel(const local_view *v, uint32_t tx, uint32_t ty, uint64_t rivals, gathered *sum)
 {
-    const float side = (float)(n->level < 0 ? 1 : 2 << n->level) / (float)v->e->size, half = 0.5F * side;
+    const float side = 1.0F / (float)v->e->size;
+    const float x = ((float)tx + 0.5F) * side, y = ((float)ty + 0.5F) * side;
+    const float dx = v->mean[0] - x, dy = v->mean[1] - y;
+    const covariance2 *p = &v->precision;
+    const float gx = p->xx * dx + p->xy * dy, gy = p->xy * dx + p->yy * dy;
+    const float exponent = 0.5F * (dx * gx + dy * gy);
+    if (exponent > LAST_EXPONENT)
+        return;
+    if (rivals) {
+        float at[2];
+        to_frame(v, x, y, at);
+        if (!owns_point(v, rivals, at[0], at[1]))
+            return;
+    }
+    const float area = v->norm * side * side;
+    const example_texel *t = &v->e->texels[ty * v->e->size + tx];
+    if (v->sum_mass)
+        sum->mass += area * exp_negative(-exponent);
+    if (v->is_ground) {
+        sum->value += area * exp_negative(-exponent) * ground_density(v);
+        return;
+    }
+    const float place_x = v->e->seed_variance * gx, place_y = v->e->seed_variance * gy;
+    const float from_x = v->slope[0] - t->slope[0] - t->jacobian.xx * place_x - t->jacobian.xy * place_y;
+    const float from_y = v->slope[1] - t->slope[1] - t->jacobian.yx * place_x - t->jacobian.yy * place_y;
+    covariance2 c = covariance2_mapped(t->jacobian, v->posterior);
+    c.xx += v->slope_variance;
+    c.yy += v->slope_variance;
+    sum->value += area * v->slope_scale * gaussian(c, from_x, from_y, exponent);
+}
+
+/* A tile whose quarters are texels. */
+static void take_texels(const local_view *v, const node *n, gathered *sum)
+{
+    if (!v->sum_mass && !v->is_ground && is_dark(v, n))
+        return;
+    for (uint32_t k = 0; k < 4; k++)
+        take_texel(v, 2U * n->x + (k & 1), 2U * n->y + (k >> 1), n->rivals, sum);
+}
+
+/* Takes a tile whole, skips it, or says that its quarters are to be looked at. */
+static int is_divided(const local_view *v, node *n, gathered *sum)
+{
+    const float side = (float)(2 << n->level) / (float)v->e->size, half = 0.5F * side;
     const float x = ((float)n->x + 0.5F) * side, y = ((float)n->y + 0.5F) * side;
     const float dx = v->mean[0] - x, dy = v->mean[1] - y;
     const covariance2 *p = &v->precision;
     const float gx = p->xx * dx + p->xy * dy, gy = p->xy * dx + p->yy * dy;
     const float exponent = 0.5F * (dx * gx + dy * gy);
     /* The exponent is convex: it lies above its tangent. */
-    const float change = n->level < 0 ? 0.0F : half * (fabsf(gx) + fabsf(gy));
+    const float change = half * (fabsf(gx) + fabsf(gy));
     if (exponent - change > LAST_EXPONENT)
-        return STEP_SKIP;
+        return 0;
     if (n->rivals) {
         float at[2];
         to_frame(v, x, y, at);
         if (!find_rivals(v, &n->rivals, at[0], at[1], side * v->self->radius))
-            return STEP_SKIP;
+            return 0;
     }
-    float density;
-    if (n->level < 0) {
-        density = seed_density(v, n->x, n->y, gx, gy);
-    } else if (n->level < EXAMPLE_LEAST_MAP_LEVEL && !v->is_ground) {
-        return !v->sum_mass && is_dark(v, n) ? STEP_SKIP : STEP_DESCEND;
-    } else {
-        density = tile_density(v, n);
-        if (!(density > 0.0F) && !v->sum_mass)
-            return STEP_SKIP;
-        const float curve = 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy), variation = change + curve;
-        const float nearest = exponent > change ? exponent - change : 0.0F;
-        /* 1 / (1 + e + e^2 / 2) is above exp(-e). */
-        if (variation > MOST_VARIATION * (1.0F + nearest + 0.5F * nearest * nearest))
-            return STEP_DESCEND;
-        if (n->rivals && v->norm * side * side > MOST_SHARED_MASS * (1.0F + nearest + 0.5F * nearest * nearest))
-            return STEP_DESCEND;
-    }
+    if (n->level < EXAMPLE_LEAST_MAP_LEVEL && !v->is_ground)
+        return 1;
+    const float curve = 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy);
+    const float nearest = exponent > change ? exponent - change : 0.0F;
+    const float rarity = 1.0F + nearest + 0.5F * nearest * nearest; /* below exp(nearest) */
+    const int is_whole =
+        change + curve <= MOST_VARIATION * rarity && (!n->rivals || v->norm * side * side <= MOST_SHARED_MASS * rarity);
+    if (!is_whole && v->sum_mass)
+        return 1;
+    const float density = tile_density(v, n);
+    if (!is_whole)
+        return density > 0.0F;
     const float mass = v->norm * exp_negative(-exponent) * side * side * owned_share(v, n, x, y, side);
     sum->value += mass * density * v->slope_scale;
     sum->mass += mass;
-    return STEP_TAKE;
+    return 0;
 }
 
 static void descend(const local_view *v, uint64_t rivals, gathered *sum)
 {
-    node stack[3 * (EXAMPLE_MOST_LEVELS + 1) + 1];
+    node stack[3 * EXAMPLE_MOST_LEVELS + 1];
     int height = 1;
     stack[0] = (node){ 0, 0, (int)v->e->levels - 1, rivals };
     while (height > 0) {
         node n = stack[--height];
-        if (look_at(v, &n, sum) != STEP_DESCEND)
+        if (!is_divided(v, &n, sum))
             continue;
+        if (n.level == 0) {
+            take_texels(v, &n, sum);
+            continue;
+        }
         for (int k = 0; k < 4; k++)
             stack[height++] =
                 (node){ (uint16_t)(2 * n.x + (k & 1)), (uint16_t)(2 * n.y + (k >> 1)), n.level - 1, n.rivals };
@@ -352,10 +377,11 @@ float example_density(const example *e, const example_footprint *f, const float 
 {
     const float half = 0.5F * (f->spread.xx - f->spread.yy);
     const float minor2 = 0.5F * (f->spread.xx + f->spread.yy) - sqrtf(half * half + f->spread.xy * f->spread.xy);
-    const float texel = RIPPLE_SIGMA / (float)e->size;
+    const int tiled = e->options->placement == GLINT_EXAMPLE_TILED;
+    const float texel = (tiled ? RIPPLE_SIGMA : SEAM_SIGMA) / (float)e->size;
     const question q = { e, f, slope, light_variance, seed, minor2 < texel * texel, extent_of(e, f) };
     gathered sum = { 0.0F, 0.0F };
-    if (e->options->placement == GLINT_EXAMPLE_TILED) {
+    if (tiled) {
         gather_cells(&q, NULL, &sum);
     } else {
         near_list list;
@@ -363,7 +389,7 @@ float example_density(const example *e, const example_footprint *f, const float 
         for (int k = 0; k < list.count; k++)
             gather_one(&q, &list.at[k], 0, &list, every_rival(&list) & ~((uint64_t)1 << k), &sum);
         const covariance2 flat = { e->slope_variance + light_variance, 0.0F, e->slope_variance + light_variance };
-        if (q.sum_mass || gaussian(flat, slope[0], slope[1]) > 0.0F)
+        if (q.sum_mass || gaussian(flat, slope[0], slope[1], 0.0F) > 0.0F)
             gather_cells(&q, &list, &sum);
     }
     if (!q.sum_mass)

@@ -48,8 +48,8 @@ static seed_matrix jacobian_of(const glint_example *e, int x, int y)
         j = around ? (j + n) % n : j < 0 ? 0 : j == n ? n - 1 : j;
         slope_of(e, i, j, s[k]);
     }
-    return (seed_matrix){ 0.5 * n * (s[1][0] - s[0][0]), 0.5 * n * (s[3][0] - s[2][0]),
-                          0.5 * n * (s[1][1] - s[0][1]), 0.5 * n * (s[3][1] - s[2][1]) };
+    return (seed_matrix){ 0.5 * n * (s[1][0] - s[0][0]), 0.5 * n * (s[3][0] - s[2][0]), 0.5 * n * (s[1][1] - s[0][1]),
+                          0.5 * n * (s[3][1] - s[2][1]) };
 }
 
 static int covers(const seed_instance *n, const double at[2])
