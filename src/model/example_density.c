@@ -219,24 +219,22 @@ static int is_divided(const local_view *v, node *n, gathered *sum)
     const float change = half * (fabsf(gx) + fabsf(gy));
     if (exponent - change > LAST_EXPONENT)
         return 0;
+    const int has_map = n->level >= EXAMPLE_LEAST_MAP_LEVEL || v->is_ground;
+    const float density = has_map ? tile_density(v, n) : 0.0F;
+    if (has_map && !(density > 0.0F) && !v->sum_mass)
+        return 0;
     if (n->rivals) {
         float at[2];
         to_frame(v, x, y, at);
         if (!find_rivals(v, &n->rivals, at[0], at[1], side * v->self->radius))
             return 0;
     }
-    if (n->level < EXAMPLE_LEAST_MAP_LEVEL && !v->is_ground)
-        return 1;
     const float curve = 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy);
     const float nearest = exponent > change ? exponent - change : 0.0F;
     const float rarity = 1.0F + nearest + 0.5F * nearest * nearest; /* below exp(nearest) */
-    const int is_whole =
-        change + curve <= MOST_VARIATION * rarity && (!n->rivals || v->norm * side * side <= MOST_SHARED_MASS * rarity);
-    if (!is_whole && v->sum_mass)
+    if (!has_map || change + curve > MOST_VARIATION * rarity ||
+        (n->rivals && v->norm * side * side > MOST_SHARED_MASS * rarity))
         return 1;
-    const float density = tile_density(v, n);
-    if (!is_whole)
-        return density > 0.0F;
     const float mass = v->norm * exp_negative(-exponent) * side * side * owned_share(v, n, x, y, side);
     sum->value += mass * density * v->slope_scale;
     sum->mass += mass;
