@@ -76,25 +76,11 @@ static float overall_density(const example *e, const float slope[2], float varia
     return slope_maps_density(&e->overall, 0, e->overall.variance + variance, slope[0], slope[1]);
 }
 
-/* ---- masking ---- */
-
-/* cos Lambda of a Gaussian surface: Beckmann's, with the roughness that the slopes have along the direction. */
-static float masked(const example *e, stretch r, vec3 v)
-{
-    const float across = v.x * v.x + v.y * v.y;
-    if (!(across > 1e-12F))
-        return 0.0F;
-    const float x = v.x * r.x, y = v.y * r.y;
-    const covariance2 *c = &e->slope_spread;
-    const float variance = (c->xx * x * x + 2.0F * c->xy * x * y + c->yy * y * y) / across;
-    const float alpha = sqrtf(2.0F * variance);
-    const ndf n = { NDF_BECKMANN, alpha, alpha };
-    return ndf_masked(&n, v);
-}
-
 static float masking_over_cosine(const example *e, stretch r, const model_query *q)
 {
-    return ndf_correlated_masking(q->wo.z, masked(e, r, q->wo), q->wi.z, masked(e, r, q->wi));
+    const float out = example_masked(&e->masking, q->wo.x * r.x, q->wo.y * r.y, q->wo.z);
+    const float in = example_masked(&e->masking, q->wi.x * r.x, q->wi.y * r.y, q->wi.z);
+    return ndf_correlated_masking(q->wo.z, out, q->wi.z, in);
 }
 
 /* ---- contract ---- */
@@ -266,8 +252,7 @@ static example *make_seeds(struct glint_material *material)
     for (uint32_t level = 0; level < levels; level++)
         e->first_tile[level] =
             example_tiles_before(e, level < EXAMPLE_LEAST_MAP_LEVEL ? 0 : EXAMPLE_LEAST_MAP_LEVEL, level);
-    e->transform = example_transform(o);
-    e->from_lattice = o->placement == GLINT_EXAMPLE_TILED ? e->transform : (matrix2){ 1.0F, 0.0F, 0.0F, 1.0F };
+    e->from_lattice = o->placement == GLINT_EXAMPLE_TILED ? example_transform(o) : (matrix2){ 1.0F, 0.0F, 0.0F, 1.0F };
     e->to_lattice = matrix2_inverse(e->from_lattice);
     example_seed(e, &material->options);
     return e;

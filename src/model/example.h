@@ -59,7 +59,17 @@ typedef struct example_texel {
     matrix2 jacobian;
 } example_texel;
 
-/* Seeds, maps and moments of one material. */
+/* E[max(w . s, -c)] over the slopes s of the whole surface, for directions w and cotangents c: see example_masking.c.
+ */
+enum { EXAMPLE_MASKING_DIRECTIONS = 32, EXAMPLE_MASKING_ANGLES = 32 };
+
+typedef struct example_masking {
+    float steepest; /* above every slope */
+    float direction[EXAMPLE_MASKING_DIRECTIONS][2];
+    float table[EXAMPLE_MASKING_DIRECTIONS][EXAMPLE_MASKING_ANGLES];
+} example_masking;
+
+/* Seeds, maps and masking of one material. */
 typedef struct example {
     const glint_example *options;
     uint32_t size, levels;                    /* levels - 1 is the top: one tile */
@@ -71,8 +81,7 @@ typedef struct example {
     slope_maps tiles;                         /* chains of the other levels, level by level */
     slope_maps overall;                       /* one chain: the whole surface */
     float *row_sums;                          /* of the first map of overall */
-    covariance2 slope_spread;                 /* second moments of the slopes of the whole surface */
-    matrix2 transform;                        /* M without variation */
+    example_masking masking;
     matrix2 from_lattice; /* lattice to surface: M of tiled examples, the unit matrix of scattered ones */
     matrix2 to_lattice;
     void *maps_block, *codes_block; /* memory of the maps and of their codes */
@@ -104,10 +113,15 @@ int example_normal_slope(const glint_example *o, uint32_t i, float slope[2]);
 
 /* Fills texels, ranges and variances from the options. */
 void example_seed(example *e, const glint_material_options *o);
-/* Places every map and finds the moments; returns how many codes the maps need. */
+/* Places every map; returns how many codes the maps need. */
 size_t example_place_maps(example *e);
-/* Fills the maps; work: SLOPE_WORK floats of zero. */
+/* Fills the maps and the masking; work: SLOPE_WORK floats of zero. */
 void example_fill_maps(example *e, float *work);
+
+void example_masking_bake(example_masking *m, const slope_maps *overall);
+
+/* cos Lambda(v): what masking adds to the projected area v.z. x and y are v's, times the stretch of slopes there. */
+float example_masked(const example_masking *m, float x, float y, float z);
 
 /* One example on the lattice. */
 typedef struct instance {

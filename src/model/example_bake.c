@@ -166,8 +166,7 @@ typedef struct overall_pass {
     example *e;
     float *density; /* NULL: only measure */
     slope_range range;
-    float least_variance, weight;
-    covariance2 spread;
+    float least_variance;
 } overall_pass;
 
 static float least_eigenvalue(covariance2 c)
@@ -177,7 +176,7 @@ static float least_eigenvalue(covariance2 c)
 }
 
 /* One seed as it lies on the surface: slopes go through the inverse transpose of M. */
-static void overall_seed(overall_pass *p, const float slope[2], covariance2 spread, matrix2 to_local, float weight)
+static void overall_seed(overall_pass *p, const float slope[2], covariance2 spread, matrix2 to_local)
 {
     const matrix2 a = { to_local.xx, to_local.yx, to_local.xy, to_local.yy };
     const float variance = p->e->slope_variance;
@@ -186,15 +185,11 @@ static void overall_seed(overall_pass *p, const float slope[2], covariance2 spre
     const float least = least_eigenvalue(c);
     if (p->density) {
         const float more = p->e->overall.variance > least ? p->e->overall.variance - least : 0.0F;
-        slope_map_add(p->e->overall.maps, p->density, (slope_lobe){ x, y, c.xx + more, c.xy, c.yy + more, weight });
+        slope_map_add(p->e->overall.maps, p->density, (slope_lobe){ x, y, c.xx + more, c.xy, c.yy + more, 1.0F });
         return;
     }
     extend(&p->range, x, y, SLOPE_REACH * sqrtf(c.xx), SLOPE_REACH * sqrtf(c.yy));
     p->least_variance = least < p->least_variance ? least : p->least_variance;
-    p->weight += weight;
-    p->spread.xx += weight * (x * x + c.xx);
-    p->spread.xy += weight * (x * y + c.xy);
-    p->spread.yy += weight * (y * y + c.yy);
 }
 
 static void overall_tiled(overall_pass *p)
@@ -204,7 +199,7 @@ static void overall_tiled(overall_pass *p)
         const matrix2 mirror = { m & 1 ? -1.0F : 1.0F, 0.0F, 0.0F, m & 2 ? -1.0F : 1.0F };
         const matrix2 to_local = matrix2_product(mirror, e->to_lattice);
         for (uint32_t i = 0; i < e->size * e->size; i++)
-            overall_seed(p, e->texels[i].slope, seed_spread(e, &e->texels[i]), to_local, 1.0F);
+            overall_seed(p, e->texels[i].slope, seed_spread(e, &e->texels[i]), to_local);
     }
 }
 
@@ -239,10 +234,10 @@ static void overall_scattered(overall_pass *p)
                 const uint32_t tx = a * n < n - 1.0F ? (uint32_t)(a * n) : e->size - 1;
                 const uint32_t ty = b * n < n - 1.0F ? (uint32_t)(b * n) : e->size - 1;
                 const example_texel *t = &e->texels[ty * e->size + tx];
-                overall_seed(p, t->slope, seed_spread(e, t), owner->to_local, 1.0F);
+                overall_seed(p, t->slope, seed_spread(e, t), owner->to_local);
             } else {
                 const float flat[2] = { 0.0F, 0.0F };
-                overall_seed(p, flat, (covariance2){ 0.0F, 0.0F, 0.0F }, unit, 1.0F);
+                overall_seed(p, flat, (covariance2){ 0.0F, 0.0F, 0.0F }, unit);
             }
         }
     }
@@ -268,9 +263,8 @@ size_t example_place_maps(example *e)
                 const slope_range range = tile_range(e, level, x, y, SLOPE_REACH);
                 slope_maps_place(&e->tiles, chain++, &range, &codes);
             }
-    overall_pass p = { e, NULL, EMPTY, 1e30F, 0.0F, { 0.0F, 0.0F, 0.0F } };
+    overall_pass p = { e, NULL, EMPTY, 1e30F };
     overall_seeds(&p);
-    e->slope_spread = (covariance2){ p.spread.xx / p.weight, p.spread.xy / p.weight, p.spread.yy / p.weight };
     const float sigma = width(&p.range) / SLOPE_CELLS;
     e->overall.variance = sigma * sigma > p.least_variance ? sigma * sigma : p.least_variance;
     e->overall.length = slope_chain_length(e->overall.variance);
@@ -300,8 +294,9 @@ void example_fill_maps(example *e, float *work)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++)
                 fill_tile(e, level, x, y, chain++, work);
-    overall_pass p = { e, work, EMPTY, 0.0F, 0.0F, { 0.0F, 0.0F, 0.0F } };
+    overall_pass p = { e, work, EMPTY, 0.0F };
     overall_seeds(&p);
     slope_maps_encode(&e->overall, 0, work);
+    example_masking_bake(&e->masking, &e->overall);
     slope_map_row_sums(&e->overall, e->overall.maps, e->row_sums);
 }

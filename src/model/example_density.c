@@ -390,7 +390,8 @@ float example_density(const example *e, const example_footprint *f, const float 
         if (q.sum_mass || gaussian(flat, slope[0], slope[1], 0.0F) > 0.0F)
             gather_cells(&q, &list, &sum);
     }
+    /* What lies beyond the reach looks like the rest: 1 - exp(-3.5^2 / 2). */
     if (!q.sum_mass)
-        return sum.value;
+        return sum.value / 0.99781F;
     return sum.mass > 0.0F ? sum.value / sum.mass : 0.0F;
 }

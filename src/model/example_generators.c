@@ -194,7 +194,7 @@ static void make_pattern(pattern *p, uint32_t size, const glint_example_shape *s
         return;
     case GLINT_EXAMPLE_BRUSHED:
         /* A brush leaves grooves as long as the map and more. */
-        make_noise(p, size, shape, 4.0F * shape->aspect, seed);
+        make_noise(p, size, shape, 2.0F * shape->aspect, seed);
         return;
     case GLINT_EXAMPLE_ANISOTROPIC_NOISE:
         make_noise(p, size, shape, shape->aspect, seed);

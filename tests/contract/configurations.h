@@ -37,8 +37,8 @@ enum { CONFIGURATIONS = 8 };
 static inline void set_example(glint_example *e, int i)
 {
     static const glint_example_kind kinds[] = { GLINT_EXAMPLE_ISOTROPIC_NOISE, GLINT_EXAMPLE_SCRATCHES,
-                                                GLINT_EXAMPLE_BRUSHED, GLINT_EXAMPLE_LEATHER,
-                                                GLINT_EXAMPLE_STRUCTURE, GLINT_EXAMPLE_ANISOTROPIC_NOISE };
+                                                GLINT_EXAMPLE_BRUSHED,         GLINT_EXAMPLE_LEATHER,
+                                                GLINT_EXAMPLE_STRUCTURE,       GLINT_EXAMPLE_ANISOTROPIC_NOISE };
     static float normals[6][3 * 16 * 16];
     if (i < 2)
         return;
