@@ -215,8 +215,9 @@ static void overall_scattered(overall_pass *p)
         for (int i = 0; i < PATCH_POINTS * PATCH_POINTS; i++) {
             /* Skewed from row to row, so that points do not fall on the same texels everywhere. */
             const uint32_t bits = hash_full(cell * HASH_X + (uint32_t)i * HASH_Y);
-            const float x = ((float)(i % PATCH_POINTS) + (float)(bits & 0xffffU) * 0x1p-16F) / PATCH_POINTS;
-            const float y = ((float)(i / PATCH_POINTS) + (float)(bits >> 16) * 0x1p-16F) / PATCH_POINTS;
+            const int column = i % PATCH_POINTS, row = i / PATCH_POINTS;
+            const float x = ((float)column + (float)(bits & 0xffffU) * 0x1p-16F) / PATCH_POINTS;
+            const float y = ((float)row + (float)(bits >> 16) * 0x1p-16F) / PATCH_POINTS;
             const instance *owner = NULL;
             float best = 1e30F;
             for (int k = 0; k < AROUND * AROUND; k++) {
@@ -281,7 +282,7 @@ static void fill_tile(example *e, uint32_t level, uint32_t tx, uint32_t ty, uint
         for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
             const example_texel *t = &e->texels[y * e->size + x];
             const covariance2 c = seed_spread(e, t);
-            slope_map_add(&e->tiles.maps[chain * e->tiles.length], work,
+            slope_map_add(&e->tiles.maps[(size_t)chain * e->tiles.length], work,
                           (slope_lobe){ t->slope[0], t->slope[1], c.xx + variance, c.xy, c.yy + variance, 1.0F });
         }
     slope_maps_encode(&e->tiles, chain, work);

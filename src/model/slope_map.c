@@ -144,7 +144,7 @@ static void encode(slope_map *map, uint8_t *codes, const float *density)
 
 void slope_maps_encode(slope_maps *maps, uint32_t chain, float *work)
 {
-    float *density = work, *other = work + SLOPE_MAP_SIDE * SLOPE_MAP_SIDE;
+    float *density = work, *other = work + (size_t)SLOPE_MAP_SIDE * SLOPE_MAP_SIDE;
     float variance = maps->variance;
     slope_map *m = &maps->maps[(size_t)chain * maps->length];
     encode(m, maps->codes + m->first, density);

@@ -56,20 +56,20 @@ static void built_in_maps_tile_and_have_their_slope(void **state)
 {
     (void)state;
     enum { N = 64 };
-    static float normals[3 * N * N], again[3 * N * N];
+    static float normals[N * N][3], again[N * N][3];
     glint_example_shape shape = GLINT_EXAMPLE_SHAPE_INIT;
     shape.feature_texels = 8.0F;
     for (int kind = 0; kind < KINDS; kind++) {
-        assert_int_equal(glint_example_generate((glint_example_kind)kind, N, &shape, 9U, normals), GLINT_OK);
-        assert_int_equal(glint_example_generate((glint_example_kind)kind, N, &shape, 9U, again), GLINT_OK);
+        assert_int_equal(glint_example_generate((glint_example_kind)kind, N, &shape, 9U, normals[0]), GLINT_OK);
+        assert_int_equal(glint_example_generate((glint_example_kind)kind, N, &shape, 9U, again[0]), GLINT_OK);
         assert_memory_equal(normals, again, sizeof(normals));
         double square[2] = { 0.0, 0.0 }, steps[N] = { 0.0 };
         for (int i = 0; i < N * N; i++) {
-            const float *n = normals + 3 * i;
+            const float *n = normals[i];
             assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1.0F) < 1e-6F && n[2] > 0.0F);
             for (int k = 0; k < 2; k++)
                 square[k] += (double)(n[k] / n[2]) * (double)(n[k] / n[2]) / (N * N);
-            const float *right = normals + 3 * (i / N * N + (i + 1) % N);
+            const float *right = normals[i / N * N + (i + 1) % N];
             const double step = fabs((double)(right[0] - n[0])) + fabs((double)(right[1] - n[1]));
             steps[i % N] += step / N;
         }
@@ -86,28 +86,28 @@ static void built_in_maps_tile_and_have_their_slope(void **state)
             assert_true(square[1] > 16.0 * square[0]);
     }
     shape.slope = 0.0F;
-    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, N, &shape, 0U, normals), GLINT_ERROR_RANGE);
+    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, N, &shape, 0U, normals[0]), GLINT_ERROR_RANGE);
     shape.slope = 0.2F;
-    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, 20, &shape, 0U, normals), GLINT_ERROR_RANGE);
-    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, N, NULL, 0U, normals), GLINT_ERROR_ARGUMENT);
+    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, 20, &shape, 0U, normals[0]), GLINT_ERROR_RANGE);
+    assert_int_equal(glint_example_generate(GLINT_EXAMPLE_LEATHER, N, NULL, 0U, normals[0]), GLINT_ERROR_ARGUMENT);
 }
 
 /* Two numbers a normal say the same as three. */
 static void normals_may_have_two_or_three_components(void **state)
 {
     (void)state;
-    static float three[3 * 256], two[2 * 256];
+    static float three[256][3], two[256][2];
     const glint_example_shape shape = GLINT_EXAMPLE_SHAPE_INIT;
-    glint_example_generate(GLINT_EXAMPLE_LEATHER, 16, &shape, 1U, three);
+    glint_example_generate(GLINT_EXAMPLE_LEATHER, 16, &shape, 1U, three[0]);
     for (int i = 0; i < 256; i++) {
-        two[2 * i] = three[3 * i];
-        two[2 * i + 1] = three[3 * i + 1];
+        two[i][0] = three[i][0];
+        two[i][1] = three[i][1];
     }
     glint_material_options o = example_options();
     o.example.sigma_r = 0.05F;
-    o.example.normals = three;
+    o.example.normals = three[0];
     glint_material *a = create(&o);
-    o.example.normals = two;
+    o.example.normals = two[0];
     o.example.components = 2;
     glint_material *b = create(&o);
     memset(three, 0, sizeof(three)); /* what the client gives is copied */

@@ -32,7 +32,7 @@ static seed_surface export_surface(const bench *b)
 /* The seeds that a footprint reaches; the rest weighs less than 1e-7. */
 static seed_surface within_reach(const seed_surface *s, const double at[2], double sigma)
 {
-    seed_surface near = { malloc(s->count * sizeof(seed_gaussian)), 0 };
+    seed_surface near = { malloc((s->count + 1) * sizeof(seed_gaussian)), 0 };
     for (size_t k = 0; k < s->count; k++)
         if (hypot(s->seeds[k].at[0] - at[0], s->seeds[k].at[1] - at[1]) < sigma)
             near.seeds[near.count++] = s->seeds[k];
@@ -81,7 +81,7 @@ static outcome compare(const bench *b, const seed_surface *s, double sigma, doub
         /* The truth is timed without finding the seeds, and over the reach of the library. */
         const seed_surface timed = within_reach(&near, q.at, q.reach * (double)SLOPE_REACH / 5.7);
         const double begin = bench_seconds();
-        volatile double sink = seed_surface_density(&timed, q.at, q.spread, q.slope, light);
+        const double bounded = seed_surface_density(&timed, q.at, q.spread, q.slope, light);
         const double middle = bench_seconds();
         const example_footprint f = { { CELL[0], CELL[1] },
                                       { (float)q.at[0], (float)q.at[1] },
@@ -91,11 +91,12 @@ static outcome compare(const bench *b, const seed_surface *s, double sigma, doub
         const double own = (double)example_density(e, &f, slope, (float)light, SEED);
         o.own_us += 1e6 / QUERIES * (bench_seconds() - middle);
         o.truth_us += 1e6 / QUERIES * (middle - begin);
-        sink = seed_surface_density(&near, q.at, q.spread, q.slope, light);
-        moments_add(&square, (own - sink) * (own - sink));
-        moments_add(&value, sink);
-        o.worst = fmax(o.worst, fabs(own - sink));
-        peak = fmax(peak, sink);
+        const double truth = seed_surface_density(&near, q.at, q.spread, q.slope, light);
+        assert_true(bounded >= 0.0);
+        moments_add(&square, (own - truth) * (own - truth));
+        moments_add(&value, truth);
+        o.worst = fmax(o.worst, fabs(own - truth));
+        peak = fmax(peak, truth);
         free(near.seeds);
         free(timed.seeds);
     }
