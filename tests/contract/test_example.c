@@ -174,6 +174,41 @@ static void mean_over_seeds_is_smooth(void **state)
     }
 }
 
+/* A pixel that grows by a thousandth at a time, from a hundredth of a map to a hundred maps: what it shows moves on by
+ * a few thousandths, and where a tile is taken whole from then on by no more than the error that is promised, 10 % of
+ * the peak. A seam between two ways of evaluation would be of the order of the peak itself. */
+static void nothing_jumps_as_the_pixel_grows(void **state)
+{
+    (void)state;
+    const glint_light light = { GLINT_LIGHT_CAP, 1e-4F };
+    const float wo[3] = { 0.0F, 0.0F, 1.0F };
+    uint64_t random = 8;
+    for (int i = 0; i < CONFIGURATIONS; i++) {
+        configuration c = configuration_of(GLINT_MODEL_EXAMPLE, i);
+        glint_material *m = create(&c.options);
+        double worst = 0.0;
+        for (int place = 0; place < 4; place++) {
+            float wi[3];
+            direction(random_between(&random, 0.05, 0.3), random_between(&random, 0.0, 2.0 * PI), wi);
+            const double u = random_between(&random, -1.0, 1.0), v = random_between(&random, -1.0, 1.0);
+            double last = -1.0, largest_step = 0.0, peak = 0.0;
+            for (double side = 16e-6; side < 0.16; side *= 1.001) {
+                const glint_footprint f = { u, v, (float)side, 0.0F, 0.0F, (float)side, 3U };
+                glint_value value;
+                glint_eval_value(m, NULL, &f, wo, wi, &light, &value);
+                const double now = (double)value.rgb[0];
+                largest_step = last < 0.0 ? 0.0 : fmax(largest_step, fabs(now - last));
+                peak = fmax(peak, fmax(now, (double)value.smooth[0]));
+                last = now;
+            }
+            worst = fmax(worst, largest_step / peak);
+        }
+        printf("%-48s largest step %.2f %% of the peak\n", c.name, 100.0 * worst);
+        assert_true(worst < 0.1);
+        glint_material_destroy(m);
+    }
+}
+
 /* Directional albedo of every built-in map with white facets, up to a root mean square slope of one. */
 static void no_map_reflects_more_than_it_gets(void **state)
 {
@@ -220,6 +255,7 @@ int main(void)
         cmocka_unit_test(built_in_maps_tile_and_have_their_slope),
         cmocka_unit_test(normals_may_have_two_or_three_components),
         cmocka_unit_test(mean_over_seeds_is_smooth),
+        cmocka_unit_test(nothing_jumps_as_the_pixel_grows),
         cmocka_unit_test(no_map_reflects_more_than_it_gets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
