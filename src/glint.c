@@ -1,25 +1,22 @@
 /* The library's front: handles, the table of models, and the checks that let models trust what they are called with. */
 #include "glint.h"
 
-#include <stdarg.h>
-#include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint_options.h"
+#include "math/float_bits.h"
 #include "model/model.h"
 #include "ndf/ndf.h"
 
 /* Indexed by glint_model. */
 static const struct model *const models[] = {
-    [GLINT_MODEL_SMOOTH] = &smooth_model,
-    [GLINT_MODEL_COUNTING] = &counting_model,
-    [GLINT_MODEL_EXPLICIT] = &explicit_model,
-    [GLINT_MODEL_DICTIONARY] = &dictionary_model,
+    [GLINT_MODEL_SMOOTH] = &smooth_model,     [GLINT_MODEL_COUNTING] = &counting_model,
+    [GLINT_MODEL_EXPLICIT] = &explicit_model, [GLINT_MODEL_DICTIONARY] = &dictionary_model,
+    [GLINT_MODEL_EXAMPLE] = &example_model,
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
-
-/* Rougher than this float can resolve near the pole. */
-#define LEAST_ALPHA 1e-4F
 
 const char *glint_version(void)
 {
@@ -79,139 +76,7 @@ glint_result glint_model_find(const char *name, glint_model *model)
     return GLINT_ERROR_RANGE;
 }
 
-/* ---- numbers from outside ---- */
-
-/* All by bits: comparing a NaN raises a floating-point exception, and a compiler may compare before the branch that
- * should have kept it from doing so. Floats that are not negative are ordered as their bits. */
-static uint32_t bits_of_float(float x)
-{
-    uint32_t u;
-    memcpy(&u, &x, sizeof(u));
-    return u;
-}
-
-/* |x| < limit; false for a NaN. */
-static int is_below(float x, float limit)
-{
-    return (bits_of_float(x) & 0x7fffffffU) < bits_of_float(limit);
-}
-
-static int is_below_d(double x, double limit)
-{
-    uint64_t u, most;
-    memcpy(&u, &x, sizeof(u));
-    memcpy(&most, &limit, sizeof(most));
-    return (u & 0x7fffffffffffffffU) < most;
-}
-
-/* low <= x <= high, for 0 <= low. */
-static int in_range(float x, float low, float high)
-{
-    const uint32_t u = bits_of_float(x) == 0x80000000U ? 0U : bits_of_float(x);
-    return u >= bits_of_float(low) && u <= bits_of_float(high);
-}
-
-/* x in [low, high] for 0 <= low; low for a NaN. */
-static float clamp_to(float x, float low, float high)
-{
-    const uint32_t u = bits_of_float(x);
-    if (u > 0x7f800000U) /* negative, or a NaN */
-        return low;
-    return u < bits_of_float(low) ? low : u > bits_of_float(high) ? high : x;
-}
-
 /* ---- set-up ---- */
-
-/* Where a failed check writes what it found. */
-typedef struct complaint {
-    char *text;
-    size_t size;
-    glint_result result;
-} complaint;
-
-static void __attribute__((format(printf, 3, 4))) complain(complaint *c, glint_result result, const char *format, ...)
-{
-    if (c->result != GLINT_OK)
-        return;
-    c->result = result;
-    if (c->text && c->size > 0) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(c->text, c->size, format, arguments);
-        va_end(arguments);
-    }
-}
-
-static void check(complaint *c, const char *name, float x, float low, float high)
-{
-    if (!in_range(x, low, high))
-        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected %g to %g", name, (double)x, (double)low, (double)high);
-}
-
-static void check_enum(complaint *c, const char *name, unsigned value, unsigned last)
-{
-    if (value > last)
-        complain(c, GLINT_ERROR_RANGE, "%s is %u, expected 0 to %u", name, value, last);
-}
-
-static void check_surface(complaint *c, const glint_surface *s)
-{
-    check(c, "surface.alpha_x", s->alpha_x, LEAST_ALPHA, 1.0F);
-    check(c, "surface.alpha_y", s->alpha_y, LEAST_ALPHA, 1.0F);
-    check(c, "surface.facets_per_m2", s->facets_per_m2, 0.0F, 1e18F);
-    check(c, "surface.discreteness", s->discreteness, 0.0F, 1.0F);
-    for (int i = 0; i < 3; i++) {
-        char name[32];
-        snprintf(name, sizeof(name), "surface.diffuse[%d]", i);
-        check(c, name, s->diffuse[i], 0.0F, 1.0F);
-        snprintf(name, sizeof(name), "surface.f0[%d]", i);
-        check(c, name, s->f0[i], 0.0F, 1.0F);
-        snprintf(name, sizeof(name), "surface.f90[%d]", i);
-        check(c, name, s->f90[i], 0.0F, 1.0F);
-    }
-}
-
-static void check_colors(complaint *c, const glint_material_options *o)
-{
-    check(c, "color_variation", o->color_variation, 0.0F, 1.0F);
-    if (o->color_count > GLINT_MAX_COLORS) {
-        complain(c, GLINT_ERROR_RANGE, "color_count is %u, expected 0 to %d", (unsigned)o->color_count,
-                 GLINT_MAX_COLORS);
-        return;
-    }
-    for (uint32_t i = 0; i < 3 * o->color_count; i++) {
-        char name[32];
-        snprintf(name, sizeof(name), "colors[%u][%u]", (unsigned)i / 3U, (unsigned)i % 3U);
-        check(c, name, o->colors[i / 3][i % 3], 0.0F, 1.0F);
-    }
-}
-
-static void check_options(complaint *c, const glint_material_options *o)
-{
-    check_enum(c, "model", (unsigned)o->model, MODEL_COUNT - 1);
-    check_enum(c, "distribution", (unsigned)o->distribution, GLINT_DISTRIBUTION_BECKMANN);
-    check_enum(c, "fresnel", (unsigned)o->fresnel, GLINT_FRESNEL_CONDUCTOR);
-    check_enum(c, "weighting", (unsigned)o->weighting, GLINT_WEIGHTING_EQUAL_PROJECTED_AREA);
-    check_enum(c, "facet_hash", (unsigned)o->facet_hash, GLINT_FACET_HASH_POVRAY);
-    if (o->facet_limit > 100000000U)
-        complain(c, GLINT_ERROR_RANGE, "facet_limit is %u, expected 0 to 100000000", o->facet_limit);
-    check_surface(c, &o->surface);
-    check(c, "facet_alpha", o->facet_alpha, 0.0F, 1.0F);
-    check(c, "coverage", o->coverage, 0.0F, 1.0F);
-    check(c, "elongation", o->elongation, 1.0F, 1e4F);
-    check(c, "density_variation", o->density_variation, 0.0F, 8.0F);
-    check(c, "max_anisotropy", o->max_anisotropy, 1.0F, 16.0F);
-    check_colors(c, o);
-    if (o->fresnel == GLINT_FRESNEL_DIELECTRIC)
-        check(c, "ior", o->ior, 1.0001F, 10.0F);
-    if (o->fresnel == GLINT_FRESNEL_CONDUCTOR)
-        for (int i = 0; i < 3; i++) {
-            check(c, "eta", o->eta[i], 1e-4F, 20.0F);
-            check(c, "k", o->k[i], 0.0F, 20.0F);
-        }
-    if (!o->allocator.allocate != !o->allocator.release)
-        complain(c, GLINT_ERROR_ARGUMENT, "allocator has only one of allocate and release, expected both or neither");
-}
 
 /* Features that the options ask for; a model added later may lack some. */
 static uint32_t wanted_features(const glint_material_options *o)
@@ -407,7 +272,11 @@ int glint_sample_direction(const glint_material *material, const glint_surface *
     float u[3];
     for (int i = 0; i < 3; i++)
         u[i] = clamp_to(random[i], 0.0F, 0.99999994F);
-    return material->model->sample(&c.query, u, sample);
+    const int lit = material->model->sample(&c.query, u, sample);
+    /* Schlick's blend from f0 to a smaller f90 may round to a hair below zero. */
+    for (int i = 0; i < 3; i++)
+        sample->weight[i] = clamp_to(sample->weight[i], 0.0F, 3e38F);
+    return lit;
 }
 
 float glint_pdf(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,

@@ -53,7 +53,8 @@ typedef enum glint_model {
     GLINT_MODEL_SMOOTH = 0, /* infinitely many facets: Cook-Torrance */
     GLINT_MODEL_COUNTING,   /* a binomial count of the lit facets under the footprint */
     GLINT_MODEL_EXPLICIT,   /* every facet under the footprint, one by one: the truth, slow */
-    GLINT_MODEL_DICTIONARY  /* a normalised distribution of hundreds of lobes for each patch; V-cavity masking */
+    GLINT_MODEL_DICTIONARY, /* a normalised distribution of hundreds of lobes for each patch; V-cavity masking */
+    GLINT_MODEL_EXAMPLE     /* a small normal map, repeated: scratches, brushed metal, leather (Xing et al. 2024) */
 } glint_model;
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
@@ -111,6 +112,37 @@ typedef struct glint_surface {
     float discreteness; /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
 } glint_surface;
 
+typedef enum glint_example_placement {
+    GLINT_EXAMPLE_TILED = 0, /* side by side, all with the same transform */
+    GLINT_EXAMPLE_SCATTERED  /* one at random in every square of side_m, over a flat ground; the nearest centre wins */
+} glint_example_placement;
+
+/* The microstructure of GLINT_MODEL_EXAMPLE: one small normal map and how it covers the surface.
+ *
+ * The map is stretched by M = rotation * (scale_x, shear_x; shear_y, scale_y), its slopes by the inverse transpose
+ * (Eqs. 8 and 9 of Xing et al. 2024). A surface whose alpha differs from that of the options stretches the slopes by
+ * the quotient; one whose facets_per_m2 differs shrinks the map, so that texels per area follow it. */
+typedef struct glint_example {
+    /* size * size normals, row by row from v = 0 up, copied; z > 0 and slopes up to 8. NULL: flat facets that follow
+     * distribution, alpha_x and alpha_y. */
+    const float *normals;
+    uint32_t components; /* of a normal: 2 (x and y of a unit vector) or 3 (x, y, z, any length) */
+    uint32_t size;       /* texels along a side: 8, 16, 32, 64, 128 or 256 */
+    float side_m;        /* of a map before it is scaled, 1e-7 to 1e3 m; 0: one texel for each of facets_per_m2 */
+    glint_example_placement placement;
+    uint32_t flat;                /* 1: texels are flat facets; 0: normals vary between texels, as in a bump map */
+    float scale[2], shear[2];     /* [.25, 4] and [-1, 1] */
+    float rotation_rad;           /* [-pi, pi], counter-clockwise */
+    float scale_variation;        /* [0, .5], relative; this and the next two for scattered maps only */
+    float shear_variation;        /* [0, .5], either way */
+    float rotation_variation_rad; /* [0, pi], either way */
+    uint32_t mirror;              /* 1: every map is mirrored at random along u, along v, both or not */
+    float jitter;                 /* [0, 1], how far a scattered map may lie from the middle of its square */
+    float sigma_h; /* [.3, 1], texels: standard deviation of the Gaussian that stands for one texel's position */
+    float sigma_r; /* [1e-3, .5], slope: roughness of the surface within a texel; at least 1/160 of the range of slopes.
+                      0: a sixth of the root mean square slope */
+} glint_example;
+
 typedef struct glint_allocator {
     void *(*allocate)(size_t byte_count, void *user); /* aligned to 64 bytes; NULL when there is none */
     void (*release)(void *memory, void *user);
@@ -141,6 +173,7 @@ typedef struct glint_material_options {
     float color_variation;       /* [0, 1], how far the hue of a facet strays from the base colour; dictionary only */
     uint32_t color_count;        /* [0, GLINT_MAX_COLORS], how many of the colors there are; dictionary only */
     float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean */
+    glint_example example;             /* for GLINT_MODEL_EXAMPLE */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -148,16 +181,18 @@ typedef struct glint_material_options {
     {                                                                                                                  \
         0.25F, 0.25F, { 0.0F, 0.0F, 0.0F }, { 1.0F, 1.0F, 1.0F }, { 1.0F, 1.0F, 1.0F }, 1e8F, 1.0F                     \
     }
+/* 16 x 16 flat facets that follow the roughness, tiled, mirrored at random. */
+#define GLINT_EXAMPLE_INIT                                                                                             \
+    {                                                                                                                  \
+        0, 3U, 16U, 0.0F, GLINT_EXAMPLE_TILED, 0U, { 1.0F, 1.0F }, { 0.0F, 0.0F }, 0.0F, 0.0F, 0.0F, 0.0F, 1U, 0.5F,   \
+            0.42466090F, 0.0F                                                                                          \
+    }
 #define GLINT_MATERIAL_OPTIONS_INIT                                                                                    \
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-        {                                                                                                              \
-            {                                                                                                          \
-                0.0F, 0.0F, 0.0F                                                                                       \
-            }                                                                                                          \
-        }                                                                                                              \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT                                                               \
     }
 
 typedef struct glint_material glint_material;
@@ -171,6 +206,34 @@ GLINT_API void glint_material_destroy(glint_material *material);
 GLINT_API glint_model glint_material_model(const glint_material *material);
 /* The surface that a call without one uses; start from it to change a part. */
 GLINT_API glint_surface glint_material_surface(const glint_material *material);
+
+/* ---- built-in examples ---- */
+
+typedef enum glint_example_kind {
+    GLINT_EXAMPLE_SCRATCHES = 0,    /* straight grooves in every direction on a flat ground */
+    GLINT_EXAMPLE_BRUSHED,          /* long grooves along u */
+    GLINT_EXAMPLE_LEATHER,          /* cushions between creases */
+    GLINT_EXAMPLE_STRUCTURE,        /* a regular weave of bumps */
+    GLINT_EXAMPLE_ISOTROPIC_NOISE,  /* bumps of every direction */
+    GLINT_EXAMPLE_ANISOTROPIC_NOISE /* bumps that are longer along u */
+} glint_example_kind;
+
+typedef struct glint_example_shape {
+    float slope;          /* (0, 2], root mean square over the map */
+    float feature_texels; /* [1, 64], width of a groove, side of a cushion or of a bump */
+    float aspect;         /* [1, 64], length over width: of anisotropic noise and of brushed grooves */
+    uint32_t count;       /* [1, 64], grooves of GLINT_EXAMPLE_SCRATCHES */
+} glint_example_shape;
+
+#define GLINT_EXAMPLE_SHAPE_INIT                                                                                       \
+    {                                                                                                                  \
+        0.2F, 4.0F, 8.0F, 6U                                                                                           \
+    }
+
+/* Fills normals with size * size unit vectors (x, y, z) of a map that tiles without a seam. size as in glint_example.
+ * GLINT_ERROR_RANGE when a number is outside its range; nothing is written then. */
+GLINT_API glint_result glint_example_generate(glint_example_kind kind, uint32_t size, const glint_example_shape *shape,
+                                              uint32_t seed, float *normals);
 
 /* ---- evaluation ---- */
 

@@ -211,7 +211,7 @@ static int dictionary_sample(const model_query *q, const float random[3], glint_
         const vec3 h = visible_facet(s, q->wo, choice);
         lit.wi = vec3_normalize(vec3_add(vec3_scale(h, 2.0F * vec3_dot(q->wo, h)), vec3_scale(q->wo, -1.0F)));
     } else {
-        lit.wi = lobe_sample_base(random[1], random[2]);
+        lit.wi = lobe_cosine_direction(random[1], random[2]);
     }
     if (!(lit.wi.z > 0.0F))
         return 0;

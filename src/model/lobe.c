@@ -50,15 +50,17 @@ static float base_albedo(const model_query *q, int channel, float cos_i)
     return q->surface->diffuse[channel] * (kept < 1.0F ? kept : 1.0F);
 }
 
-void lobe_eval(const model_query *q, lobe_value *value)
+void lobe_halve(const model_query *q, lobe_value *value)
 {
-    const ndf n = lobe_ndf(q);
     const vec3 sum = vec3_add(q->wo, q->wi);
     value->h = vec3_normalize(sum);
     /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
     value->h_dot_wi = clamp01(0.5F * sqrtf(vec3_dot(sum, sum)));
-    value->density = ndf_density(&n, value->h);
-    const float masking = 0.25F * ndf_masking_over_cosine(&n, q->wo, q->wi);
+}
+
+void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *value)
+{
+    const float masking = 0.25F * masking_over_cosine;
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
         value->fresnel[c] = facet_reflectance(q, c, value->h_dot_wi);
@@ -66,6 +68,14 @@ void lobe_eval(const model_query *q, lobe_value *value)
         value->specular[c] = value->reflectance[c] * value->density;
         value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
+}
+
+void lobe_eval(const model_query *q, lobe_value *value)
+{
+    const ndf n = lobe_ndf(q);
+    lobe_halve(q, value);
+    value->density = ndf_density(&n, value->h);
+    lobe_shade(q, ndf_masking_over_cosine(&n, q->wo, q->wi), value);
 }
 
 float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
@@ -113,7 +123,7 @@ float lobe_pdf(const model_query *q)
 }
 
 /* A uniform point of the disk, lifted. */
-vec3 lobe_sample_base(float u1, float u2)
+vec3 lobe_cosine_direction(float u1, float u2)
 {
     const float turn = 2.0F * u1;
     float sine, cosine;
@@ -130,7 +140,7 @@ int lobe_sample(const model_query *q, const float random[3], glint_sample *sampl
         const vec3 h = ndf_sample_visible(&n, q->wo, random[1], random[2]);
         lit.wi = vec3_normalize(vec3_add(vec3_scale(h, 2.0F * vec3_dot(q->wo, h)), vec3_scale(q->wo, -1.0F)));
     } else {
-        lit.wi = lobe_sample_base(random[1], random[2]);
+        lit.wi = lobe_cosine_direction(random[1], random[2]);
     }
     if (!(lit.wi.z > 0.0F))
         return 0;

@@ -22,6 +22,11 @@ ndf lobe_ndf(const model_query *q);
 /* f = coverage F D G2 / (4 cos_o cos_i) + diffuse / pi of what the facets let through, each times |cos theta_i|. */
 void lobe_eval(const model_query *q, lobe_value *value);
 
+/* The same in two steps, for a model with a density of its own: h and h_dot_wi, then, with density set, the rest from
+ * G2 / cos_o. */
+void lobe_halve(const model_query *q, lobe_value *value);
+void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *value);
+
 /* Solid angle of the facet normals that reflect some of the light to the viewer, sr: the light's and the facet's own
  * lobe. */
 float lobe_lit_solid_angle(const model_query *q, const lobe_value *value);
@@ -35,7 +40,7 @@ float lobe_lit_probability(const model_query *q, const lobe_value *value, float 
 float lobe_specular_chance(const model_query *q);
 
 /* Cosine-distributed direction for the base. */
-vec3 lobe_sample_base(float u1, float u2);
+vec3 lobe_cosine_direction(float u1, float u2);
 
 int lobe_sample(const model_query *q, const float random[3], glint_sample *sample);
 float lobe_pdf(const model_query *q);

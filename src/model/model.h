@@ -49,5 +49,6 @@ extern const struct model smooth_model;
 extern const struct model counting_model;
 extern const struct model explicit_model;
 extern const struct model dictionary_model;
+extern const struct model example_model;
 
 #endif

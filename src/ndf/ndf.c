@@ -19,8 +19,7 @@ float ndf_masked(const ndf *n, vec3 v)
 
 float ndf_masking_over_cosine(const ndf *n, vec3 wo, vec3 wi)
 {
-    /* G2 = 1 / (1 + Lambda_o + Lambda_i), multiplied through by both cosines. */
-    return wi.z / (wo.z * wi.z + ndf_masked(n, wo) * wi.z + ndf_masked(n, wi) * wo.z);
+    return ndf_correlated_masking(wo.z, ndf_masked(n, wo), wi.z, ndf_masked(n, wi));
 }
 
 float ndf_total_area(const ndf *n)

@@ -21,6 +21,13 @@ float ndf_density(const ndf *n, vec3 h);
  * Lambda does not. v unit, v.z >= 0. G1(v) = cos / (cos + this). */
 float ndf_masked(const ndf *n, vec3 v);
 
+/* G2 / cos(theta_o) from what both directions' masking adds: G2 = 1 / (1 + Lambda_o + Lambda_i), multiplied through by
+ * both cosines. */
+static inline float ndf_correlated_masking(float cos_o, float masked_o, float cos_i, float masked_i)
+{
+    return cos_i / (cos_o * cos_i + masked_o * cos_i + masked_i * cos_o);
+}
+
 /* G2(wo, wi) / cos(theta_o), finite for every wo and wi with z > 0. */
 float ndf_masking_over_cosine(const ndf *n, vec3 wo, vec3 wi);
 

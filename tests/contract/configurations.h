@@ -26,10 +26,9 @@ typedef struct model_row {
 } model_row;
 
 static const model_row MODELS[] = {
-    { GLINT_MODEL_SMOOTH, 1, 1e18, 0.0 },
-    { GLINT_MODEL_COUNTING, 1, 1e18, 0.0 },
-    { GLINT_MODEL_EXPLICIT, 0, 1500.0, 0.0 },
-    { GLINT_MODEL_DICTIONARY, 1, 1e18, 1.3e-3 },
+    { GLINT_MODEL_SMOOTH, 1, 1e18, 0.0 },     { GLINT_MODEL_COUNTING, 1, 1e18, 0.0 },
+    { GLINT_MODEL_EXPLICIT, 0, 1500.0, 0.0 }, { GLINT_MODEL_DICTIONARY, 1, 1e18, 1.3e-3 },
+    { GLINT_MODEL_EXAMPLE, 1, 1e18, 0.0 },
 };
 
 typedef struct configuration {
@@ -38,6 +37,31 @@ typedef struct configuration {
 } configuration;
 
 enum { CONFIGURATIONS = 8 };
+
+/* Another microstructure of the example model for each configuration: flat facets that follow the surface, and every
+ * built-in map, tiled and scattered. */
+static inline void set_example(glint_example *e, int i)
+{
+    static const glint_example_kind kinds[] = { GLINT_EXAMPLE_ISOTROPIC_NOISE, GLINT_EXAMPLE_SCRATCHES,
+                                                GLINT_EXAMPLE_BRUSHED,         GLINT_EXAMPLE_LEATHER,
+                                                GLINT_EXAMPLE_STRUCTURE,       GLINT_EXAMPLE_ANISOTROPIC_NOISE };
+    static float normals[6][3 * 16 * 16];
+    if (i < 2)
+        return;
+    const glint_example_shape shape = GLINT_EXAMPLE_SHAPE_INIT;
+    if (glint_example_generate(kinds[i - 2], 16, &shape, 7U, normals[i - 2]) != GLINT_OK)
+        fail_msg("glint_example_generate refuses kind %d", i - 2);
+    e->normals = normals[i - 2];
+    e->mirror = i % 2 == 0;
+    e->rotation_rad = 0.3F;
+    e->sigma_r = 0.04F;
+    if (i == 3 || i == 7) {
+        e->placement = GLINT_EXAMPLE_SCATTERED;
+        e->scale_variation = 0.2F;
+        e->shear_variation = 0.1F;
+        e->rotation_variation_rad = 3.0F;
+    }
+}
 
 /* Configuration i of a model. */
 static inline configuration configuration_of(glint_model model, int i)
@@ -90,6 +114,8 @@ static inline configuration configuration_of(glint_model model, int i)
             o.colors[0][1] = o.colors[1][0] = 0.3F;
         }
     }
+    if (model == GLINT_MODEL_EXAMPLE)
+        set_example(&o.example, i);
     return (configuration){ names[i], o };
 }
 

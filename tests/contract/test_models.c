@@ -1,9 +1,5 @@
-/* What every model promises, for every model: sign, reciprocity, energy, batches, threads, sampling. */
+/* What every model promises, for every model: sign, reciprocity, energy, convergence. */
 #include "configurations.h"
-#include "sampling.h"
-
-#include <pthread.h>
-#include <string.h>
 
 #define PI 3.14159265358979323846
 
@@ -120,156 +116,6 @@ static void weight_times_density_is_the_value(void **state)
     }
 }
 
-static void samples_have_their_density(void **state)
-{
-    (void)state;
-    static sampling_counts counts;
-    uint64_t random = 5;
-    const double tests = (double)(sizeof(MODELS) / sizeof(MODELS[0])) * CONFIGURATIONS * 2.0;
-    FOR_EACH_CONFIGURATION(c, m, row)
-    for (int t = 0; t < 2; t++) {
-        float wo[3];
-        direction(t ? 1.3 : 0.4, 0.5, wo);
-        sampling_expect(&counts, m, NULL, wo, 3);
-        sampling_draw(&counts, m, NULL, wo, &random);
-        double cells;
-        const double chi2 = sampling_chi_square(&counts, &cells), tail = chi_square_tail(chi2, cells);
-        if (tail < 0.001 / tests)
-            fail_msg("%s, %s, view %d: chi^2 %.1f on %.0f cells, significance %.1e", glint_model_name(row->model),
-                     c.name, t, chi2, cells, tail);
-    }
-}
-
-enum { BATCH = 1000 };
-
-typedef struct batch_arrays {
-    double u[BATCH], v[BATCH];
-    float jacobian[4][BATCH], wo[3][BATCH], wi[3][BATCH], solid_angle[BATCH], rgb[3][BATCH];
-    uint32_t seed[BATCH];
-    glint_surface surface[BATCH];
-} batch_arrays;
-
-static void fill(batch_arrays *a, const glint_material *m, uint64_t *random)
-{
-    for (int i = 0; i < BATCH; i++) {
-        const glint_footprint f = random_footprint(random);
-        float wo[3], wi[3];
-        random_direction(random, wo);
-        random_direction(random, wi);
-        a->u[i] = f.u;
-        a->v[i] = f.v;
-        a->jacobian[0][i] = f.dudx;
-        a->jacobian[1][i] = f.dudy;
-        a->jacobian[2][i] = f.dvdx;
-        a->jacobian[3][i] = f.dvdy;
-        a->seed[i] = f.seed;
-        for (int k = 0; k < 3; k++) {
-            a->wo[k][i] = wo[k];
-            a->wi[k][i] = i % 17 == 0 ? -wi[k] : wi[k]; /* some below the horizon */
-        }
-        a->solid_angle[i] = (float)random_log_between(random, 1e-6, 1.0);
-        a->surface[i] = glint_material_surface(m);
-        a->surface[i].alpha_x = (float)random_log_between(random, 1e-3, 1.0);
-        a->surface[i].facets_per_m2 = i % 13 == 0 ? 0.0F : (float)random_log_between(random, 1.0, 1e12);
-    }
-}
-
-static glint_batch batch_of(batch_arrays *a, int with_surfaces)
-{
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = BATCH;
-    b.u = a->u;
-    b.v = a->v;
-    b.dudx = a->jacobian[0];
-    b.dudy = a->jacobian[1];
-    b.dvdx = a->jacobian[2];
-    b.dvdy = a->jacobian[3];
-    b.seed = a->seed;
-    b.solid_angle_sr = a->solid_angle;
-    b.surfaces = with_surfaces ? a->surface : NULL;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = a->wo[k];
-        b.wi[k] = a->wi[k];
-        b.rgb[k] = a->rgb[k];
-    }
-    return b;
-}
-
-static void batch_gives_the_bits_of_single_calls(void **state)
-{
-    (void)state;
-    static batch_arrays a;
-    uint64_t random = 6;
-    FOR_EACH_CONFIGURATION(c, m, row)
-    for (int with_surfaces = 0; with_surfaces < 2; with_surfaces++) {
-        fill(&a, m, &random);
-        const glint_batch b = batch_of(&a, with_surfaces);
-        assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
-        for (int i = 0; i < BATCH; i++) {
-            const glint_footprint f = { a.u[i],           a.v[i],           a.jacobian[0][i], a.jacobian[1][i],
-                                        a.jacobian[2][i], a.jacobian[3][i], a.seed[i] };
-            const float wo[3] = { a.wo[0][i], a.wo[1][i], a.wo[2][i] };
-            const float wi[3] = { a.wi[0][i], a.wi[1][i], a.wi[2][i] };
-            const glint_light light = { GLINT_LIGHT_CAP, a.solid_angle[i] };
-            float rgb[3];
-            glint_eval(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, rgb);
-            for (int k = 0; k < 3; k++)
-                assert_memory_equal(&rgb[k], &a.rgb[k][i], sizeof(float));
-        }
-    }
-}
-
-static void batch_with_a_missing_array_is_refused(void **state)
-{
-    (void)state;
-    static batch_arrays a;
-    const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-    glint_material *m = create(&o);
-    glint_batch b = batch_of(&a, 0);
-    b.wi[1] = NULL;
-    assert_int_equal(glint_eval_batch(m, &b), GLINT_ERROR_ARGUMENT);
-    b = batch_of(&a, 0);
-    b.size = 0;
-    assert_int_equal(glint_eval_batch(m, &b), GLINT_ERROR_ARGUMENT);
-    assert_int_equal(glint_eval_batch(m, NULL), GLINT_ERROR_ARGUMENT);
-    glint_material_destroy(m);
-}
-
-typedef struct job {
-    const glint_material *material;
-    batch_arrays *arrays;
-} job;
-
-static void *evaluate(void *argument)
-{
-    const job *j = argument;
-    const glint_batch b = batch_of(j->arrays, 1);
-    for (int i = 0; i < 5; i++)
-        glint_eval_batch(j->material, &b);
-    return NULL;
-}
-
-static void threads_may_share_a_material(void **state)
-{
-    (void)state;
-    static batch_arrays a[3];
-    FOR_EACH_CONFIGURATION(c, m, row)
-    {
-        uint64_t random = 7;
-        fill(&a[0], m, &random);
-        a[1] = a[2] = a[0];
-        pthread_t thread[2];
-        job jobs[3] = { { m, &a[0] }, { m, &a[1] }, { m, &a[2] } };
-        for (int i = 0; i < 2; i++)
-            assert_int_equal(pthread_create(&thread[i], NULL, evaluate, &jobs[i]), 0);
-        evaluate(&jobs[2]);
-        for (int i = 0; i < 2; i++)
-            pthread_join(thread[i], NULL);
-        assert_memory_equal(a[0].rgb, a[2].rgb, sizeof(a[0].rgb));
-        assert_memory_equal(a[1].rgb, a[2].rgb, sizeof(a[1].rgb));
-    }
-}
-
 /* Root mean square of value / smooth - 1 over footprints. */
 static double roughness_of(const glint_material *m, double facets, uint64_t *random)
 {
@@ -319,10 +165,6 @@ int main(void)
         cmocka_unit_test(nothing_is_seen_below_the_horizon),
         cmocka_unit_test(energy_is_kept_and_sampling_agrees_with_quadrature),
         cmocka_unit_test(weight_times_density_is_the_value),
-        cmocka_unit_test(samples_have_their_density),
-        cmocka_unit_test(batch_gives_the_bits_of_single_calls),
-        cmocka_unit_test(batch_with_a_missing_array_is_refused),
-        cmocka_unit_test(threads_may_share_a_material),
         cmocka_unit_test(tends_to_smooth_as_density_grows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
