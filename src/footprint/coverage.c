@@ -60,7 +60,7 @@ double coverage_area(const coverage_pixel *p)
 double coverage_cell_bound(const coverage_pixel *p)
 {
     if (!(fabs(p->u) < 1e12 && fabs(p->v) < 1e12))
-        return INFINITY;
+        return HUGE_VAL;
     /* A convex shape touches the cells of its area, and those along its outline. */
     const double width = fabs(p->dudx) + fabs(p->dudy), height = fabs(p->dvdx) + fabs(p->dvdy);
     return coverage_area(p) + 2.0 * (width + height) + 4.0;

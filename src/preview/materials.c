@@ -11,20 +11,23 @@ static const char *name_of(const scene_material *m)
     return m->name != NULL ? m->name : "";
 }
 
-static void warn_of_unrendered(const scene *s, int index, report *r)
+static void warn_of_unrendered(const scene *s, int index, glint_model model, report *r)
 {
     const scene_material *const m = &s->materials[index];
     const scene_glint *const g = &m->glint;
     const char *const path = s->path != NULL ? s->path : "scene";
     if (!g->present || !(g->factor > 0.0F))
         return;
-    if (g->color_variation > 0.0F)
+    if (g->color_variation > 0.0F && !(glint_model_features(model) & GLINT_FEATURE_COLOR))
         report_warning(r,
-                       "%s: materials/%d (\"%s\"): glintColorVariation %g is not rendered; every facet has one colour",
-                       path, index, name_of(m), (double)g->color_variation);
-    if (g->density_variation > 0.0F)
-        report_warning(r, "%s: materials/%d (\"%s\"): glintDensityVariation %g is not rendered; the density is even",
-                       path, index, name_of(m), (double)g->density_variation);
+                       "%s: materials/%d (\"%s\"): glintColorVariation %g is not rendered by the %s model; every facet "
+                       "has one colour",
+                       path, index, name_of(m), (double)g->color_variation, glint_model_name(model));
+    if (g->density_variation > 0.0F && model != GLINT_MODEL_DICTIONARY)
+        report_warning(
+            r,
+            "%s: materials/%d (\"%s\"): glintDensityVariation %g is not rendered by the %s model; the density is even",
+            path, index, name_of(m), (double)g->density_variation, glint_model_name(model));
     if (g->structure == SCENE_STRUCTURE_EXAMPLE)
         report_warning(r, "%s: materials/%d (\"%s\"): glintStructure \"example\" is rendered as \"flakes\"", path,
                        index, name_of(m));
@@ -80,7 +83,7 @@ bool materials_make(const scene *s, int model, materials *out, report *r)
 
     const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
-        warn_of_unrendered(s, i, r);
+        warn_of_unrendered(s, i, wanted, r);
         if (!make_layers(s, i, wanted, &out->layers[i], r)) {
             materials_free(out);
             return false;

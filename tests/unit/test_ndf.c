@@ -204,7 +204,7 @@ static void fresnel_agrees_with_complex_arithmetic(void **state)
         const int metal = i & 1;
         const float eta = (float)random_between(&random, metal ? 0.05 : 1.01, 4.0);
         const float k = metal ? (float)random_between(&random, 0.0, 8.0) : 0.0F;
-        const double complex m = CMPLX((double)eta, (double)k);
+        const double complex m = (double)eta + (double)k * (double complex)_Complex_I;
         const double cosine = (double)(float)c;
         const double complex inner = csqrt(m * m - (1.0 - cosine * cosine));
         const double complex s = (cosine - inner) / (cosine + inner);
