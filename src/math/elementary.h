@@ -46,20 +46,26 @@ static inline vfloat log1m_half(vfloat p)
     return -2.0F * (s + s * (q * z));
 }
 
-/* *em1 = exp(t) - 1 and *e = exp(t) for t <= 0; below -60 as at -60. */
-static inline void exp_both(vfloat t, vfloat *em1, vfloat *e)
+/* exp(t) = (*q + 1) * *scale, *q the exponential of what is left of t less one. */
+static inline void exp_reduce(vfloat t, vfloat *q, vfloat *scale)
 {
-    t = max_f(t, splat(-60.0F));
     const vfloat n = floor_f(t * 1.44269504F + 0.5F);
     vfloat r = t - n * 0.693359375F;
     r = r + n * 2.12194440e-4F;
-    vfloat q = 1.9875691500e-4F * r + 1.3981999507e-3F;
-    q = q * r + 8.3334519073e-3F;
-    q = q * r + 4.1665795894e-2F;
-    q = q * r + 1.6666665459e-1F;
-    q = q * r + 5.0000001201e-1F;
-    q = q * r * r + r;
-    const vfloat s = exp2_i(to_int(n));
+    vfloat p = 1.9875691500e-4F * r + 1.3981999507e-3F;
+    p = p * r + 8.3334519073e-3F;
+    p = p * r + 4.1665795894e-2F;
+    p = p * r + 1.6666665459e-1F;
+    p = p * r + 5.0000001201e-1F;
+    *q = p * r * r + r;
+    *scale = exp2_i(to_int(n));
+}
+
+/* *em1 = exp(t) - 1 and *e = exp(t) for t <= 0; below -60 as at -60. */
+static inline void exp_both(vfloat t, vfloat *em1, vfloat *e)
+{
+    vfloat q, s;
+    exp_reduce(max_f(t, splat(-60.0F)), &q, &s);
     *e = q * s + s;
     *em1 = q * s + (s - 1.0F);
 }
@@ -67,18 +73,9 @@ static inline void exp_both(vfloat t, vfloat *em1, vfloat *e)
 /* exp(t) for t <= 0, 0 below -87. */
 static inline vfloat exp_negative(vfloat t)
 {
-    const vmask tiny = less(t, splat(-87.0F));
-    t = max_f(t, splat(-87.0F));
-    const vfloat n = floor_f(t * 1.44269504F + 0.5F);
-    vfloat r = t - n * 0.693359375F;
-    r = r + n * 2.12194440e-4F;
-    vfloat q = 1.9875691500e-4F * r + 1.3981999507e-3F;
-    q = q * r + 8.3334519073e-3F;
-    q = q * r + 4.1665795894e-2F;
-    q = q * r + 1.6666665459e-1F;
-    q = q * r + 5.0000001201e-1F;
-    q = q * r * r + r + 1.0F;
-    return choose(tiny, splat(0.0F), q * exp2_i(to_int(n)));
+    vfloat q, s;
+    exp_reduce(max_f(t, splat(-87.0F)), &q, &s);
+    return choose(less(t, splat(-87.0F)), splat(0.0F), (q + 1.0F) * s);
 }
 
 /* sin and cos of pi x for x in [0, 1). */
