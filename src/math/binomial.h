@@ -4,9 +4,10 @@
  *
  *     X = Binomial(n, p) + Bernoulli(f p),    E X = N p,    Var X = n p (1 - p) + f p (1 - f p)
  *
- * It is found by inversion: X > k where u < P(X > k). So for a fixed u it never falls when N or p grows, and steps by
- * one. Small u means a large X: the survival function keeps its relative precision in the tail that matters. Above one
- * half p is replaced by 1 - p and the count taken from the other end.
+ * It is found by inversion: X > k where u < P(X > k). So for a fixed u it does not fall when N or p grows, and steps by
+ * one; only where the walk below hands over to the expansion may it lose one count. Small u means a large X: the
+ * survival function keeps its relative precision in the tail that matters. Above one half p is replaced by 1 - p, u by
+ * 1 - u, and the count is taken from the other end.
  *
  * Draws are made several at a time because in a glint twelve share one (N, p) and so one exp and one log.
  */
