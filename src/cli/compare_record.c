@@ -75,10 +75,11 @@ static document *quantiles_of(const compare_result *result)
 /* "from" is relative to A's mean; the first bin holds all below it too, and what is not positive. */
 static document *histogram_of(const compare_result *result)
 {
+    const int middle = COMPARE_BINS / 2;
     document *list = document_array();
     for (int i = 0; i < COMPARE_BINS; ++i) {
         document *d = document_object();
-        document_set_number(d, "from", exp2(0.5 * (i - COMPARE_BINS / 2)));
+        document_set_number(d, "from", exp2(0.5 * (i - middle)));
         document_set_integer(d, "a", result->a_bin[i]);
         document_set_integer(d, "b", result->b_bin[i]);
         document_append(list, d);

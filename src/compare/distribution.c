@@ -51,9 +51,10 @@ static double distance(const float *a, const float *b, size_t count)
 
 static void fill_bins(const float *values, size_t count, double mean, uint64_t bins[COMPARE_BINS])
 {
+    const int middle = COMPARE_BINS / 2;
     for (size_t i = 0; i < count; ++i) {
         const double stops = values[i] > 0.0F && mean > 0.0 ? log2((double)values[i] / mean) : -1e9;
-        const double bin = floor(2.0 * stops) + COMPARE_BINS / 2;
+        const double bin = floor(2.0 * stops) + middle;
         ++bins[bin < 0.0 ? 0 : bin >= COMPARE_BINS ? COMPARE_BINS - 1 : (int)bin];
     }
 }
