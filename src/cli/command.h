@@ -15,6 +15,7 @@ int command_compare(int argc, char **argv);
 int command_eval(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_export_gltf(int argc, char **argv);
+int command_export_povray(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
 
