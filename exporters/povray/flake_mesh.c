@@ -1,7 +1,6 @@
-/* A mesh of one polygon a flake: triangles cut along the grid of flakes, each piece with the normal of its flake. */
+/* A mesh of one polygon a flake: triangles cut along the grid of flakes, each piece tilted about its middle. */
 #include "exporters/povray/flake.h"
 #include "exporters/povray/povray.h"
-#include "scene/surface.h"
 
 enum { MOST_FLAKES = 250000, MOST_CORNERS = 8 };
 
@@ -23,7 +22,7 @@ typedef struct cutter {
     flake_law law;
     uint32_t seed;
     double flakes_u, flakes_v; /* per metre */
-    text vertices, normals, faces;
+    text vertices, faces;
     uint32_t vertex_count, face_count;
 } cutter;
 
@@ -88,30 +87,30 @@ static vec along_u(const corner t[3])
     return vec_scale(d, determinant < 0.0 ? -1.0 : 1.0);
 }
 
-static void write_vertex(cutter *c, const corner *at, vec normal)
-{
-    text_print(&c->vertices, ",\n  ");
-    text_vector(&c->vertices, vec_scale(at->at, c->p->unit));
-    text_print(&c->normals, ",\n  ");
-    text_vector(&c->normals, normal);
-    ++c->vertex_count;
-}
-
-/* POV-Ray takes a triangle with three equal normals for flat: the first is off by 1e-4, and every triangle has it. */
+/* Turns a piece about its middle so that the surface's normal becomes the flake's. */
 static void write_piece(cutter *c, const piece *q, vec x_axis, double y_sign, int64_t x, int64_t y)
 {
     double slopes[2];
     flake_slopes(&c->law, x, y, c->seed, slopes);
-    vec n = { 0 };
-    for (int i = 0; i < q->count; ++i)
+    vec n = { 0 }, middle = { 0 };
+    for (int i = 0; i < q->count; ++i) {
         n = vec_add(n, q->corners[i].normal);
+        middle = vec_add(middle, vec_scale(q->corners[i].at, 1.0 / q->count));
+    }
     n = vec_unit(n);
     const vec t = vec_unit(vec_sub(x_axis, vec_scale(n, vec_dot(x_axis, n))));
     const vec b = vec_scale(vec_cross(n, t), y_sign);
     const vec m = vec_unit(vec_add(n, vec_add(vec_scale(t, slopes[0]), vec_scale(b, slopes[1]))));
+    const vec turned_t = vec_unit(vec_sub(t, vec_scale(m, vec_dot(t, m))));
+    const vec turned_b = vec_scale(vec_cross(m, turned_t), y_sign);
     const uint32_t first = c->vertex_count;
-    for (int i = 0; i < q->count; ++i)
-        write_vertex(c, &q->corners[i], i == 0 ? vec_unit(vec_add(m, vec_scale(t, 1e-4))) : m);
+    for (int i = 0; i < q->count; ++i, ++c->vertex_count) {
+        const vec d = vec_sub(q->corners[i].at, middle);
+        const vec turned = vec_add(vec_scale(turned_t, vec_dot(d, t)),
+                                   vec_add(vec_scale(turned_b, vec_dot(d, b)), vec_scale(m, vec_dot(d, n))));
+        text_print(&c->vertices, ",\n  ");
+        text_vector(&c->vertices, vec_scale(vec_add(middle, turned), c->p->unit));
+    }
     for (int i = 2; i < q->count; ++i, ++c->face_count)
         text_print(&c->faces, ",\n  <%u, %u, %u>", first, first + (uint32_t)i - 1U, first + (uint32_t)i);
 }
@@ -196,11 +195,9 @@ bool flake_mesh_write(const povray *p, const scene_instance *instance, uint32_t 
     }
     text_print(out, "#declare Object_%d_Flakes = mesh2 {\n", (int)(instance - p->scene->instances));
     write_list(out, "vertex_vectors", c.vertex_count, &c.vertices);
-    write_list(out, "normal_vectors", c.vertex_count, &c.normals);
     write_list(out, "face_indices", c.face_count, &c.faces);
     text_print(out, "}\n");
     text_free(&c.vertices);
-    text_free(&c.normals);
     text_free(&c.faces);
     return true;
 }

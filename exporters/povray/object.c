@@ -20,11 +20,10 @@ static const struct {
                                 "degrees of the normal" },
     [FORM_PORTABLE] = { "portable", "flakes of POV-Ray's own; mean within 10 % of smooth" },
     [FORM_EXACT] = { "exact", "the flakes of libglint's explicit model with its POV-Ray hash: x along u, y along v; "
-                              "radiance within 1 %, for this camera" },
+                              "for this camera" },
     [FORM_ANALYTIC] = { "analytic", "libglint's smooth model to the precision of the picture, for this camera and the "
                                     "one light" },
-    [FORM_MESH] = { "mesh", "one polygon a flake, those of libglint's explicit model with its POV-Ray hash; mean "
-                            "within 2 % of smooth" },
+    [FORM_MESH] = { "mesh", "one polygon a flake, tilted; those of libglint's explicit model with its POV-Ray hash" },
 };
 
 /* ---- meshes ---- */
