@@ -2,6 +2,8 @@
 //
 // Textures of a preset refer to the arrays "textures", "images" and "samplers" of its extras, which mean what they mean
 // at the root of a glTF file; URIs are relative to the preset's folder.
+#include "io/preset.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +21,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char *suffix = ".gltf-material.json";
-constexpr uint64_t max_preset_bytes = uint64_t{ 1 } << 24; // our choice: presets are written by hand
 
 struct freed {
     void operator()(scene *s) const
@@ -62,21 +63,9 @@ bool is_path(const std::string &name)
     return name.find('/') != name.npos || (name.size() > 5 && name.compare(name.size() - 5, 5, ".json") == 0);
 }
 
-std::string preset_path(const std::string &name)
-{
-    if (is_path(name))
-        return name;
-    const std::string folder = preset_folder();
-    const std::vector<std::string> names = preset_names(folder);
-    if (!std::binary_search(names.begin(), names.end(), name))
-        throw file_error("",
-                         "found no preset of this name in " + folder + ", expected one of: " + near_names(name, names));
-    return folder + "/" + name + suffix;
-}
-
 json preset_material(const std::string &path)
 {
-    const std::vector<uint8_t> bytes = file_bytes(path, max_preset_bytes);
+    const std::vector<uint8_t> bytes = file_bytes(path, preset_max_bytes);
     const std::string_view text(reinterpret_cast<const char *>(bytes.data()), bytes.size());
     json material = json_parse(text);
     if (!material.is_object())
@@ -195,6 +184,18 @@ void apply(scene *s, const std::string &material_name, const scene_material &pre
 }
 
 } // namespace
+
+std::string preset_path(const std::string &name)
+{
+    if (is_path(name))
+        return name;
+    const std::string folder = preset_folder();
+    const std::vector<std::string> names = preset_names(folder);
+    if (!std::binary_search(names.begin(), names.end(), name))
+        throw file_error("",
+                         "found no preset of this name in " + folder + ", expected one of: " + near_names(name, names));
+    return folder + "/" + name + suffix;
+}
 
 bool preset_read(const char *name_or_path, scene *s, scene_material *out, report *r)
 {
