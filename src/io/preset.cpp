@@ -73,27 +73,6 @@ json preset_material(const std::string &path)
     return material;
 }
 
-// The smallest glTF document around a material.
-json document_around(json material)
-{
-    json root = { { "asset", { { "version", "2.0" } } } };
-    const json extras = material.value("extras", json::object());
-    for (const char *array : { "textures", "images", "samplers" })
-        if (extras.is_object() && extras.contains(array))
-            root[array] = extras[array];
-    root["materials"] = json::array({ std::move(material) });
-    return root;
-}
-
-// Places in the document as places in the preset's file.
-std::string place_in_preset(const std::string &place)
-{
-    const std::string material = "/materials/0";
-    if (place.compare(0, material.size(), material) == 0)
-        return place.substr(material.size());
-    return place.empty() ? place : "/extras" + place;
-}
-
 std::vector<scene_texture *> textures_of(scene_material *m)
 {
     return { &m->base_color_texture,          &m->metallic_roughness_texture, &m->normal_texture,
@@ -125,9 +104,9 @@ void read_preset(const std::string &path, scene *s, scene_material *out, report 
     scene preset = {};
     const std::unique_ptr<scene, freed> owner(&preset); // also when an exception passes
     try {
-        gltf_read_document(file, document_around(std::move(material)), {}, false, &preset);
+        gltf_read_document(file, preset_document(std::move(material)), {}, false, &preset);
     } catch (const file_error &e) {
-        throw file_error(place_in_preset(e.place), e.text);
+        throw file_error(preset_place(e.place), e.text);
     }
     move_into(&preset, s, out);
 }
@@ -184,6 +163,25 @@ void apply(scene *s, const std::string &material_name, const scene_material &pre
 }
 
 } // namespace
+
+json preset_document(json material)
+{
+    json root = { { "asset", { { "version", "2.0" } } } };
+    const json extras = material.value("extras", json::object());
+    for (const char *array : { "textures", "images", "samplers" })
+        if (extras.is_object() && extras.contains(array))
+            root[array] = extras[array];
+    root["materials"] = json::array({ std::move(material) });
+    return root;
+}
+
+std::string preset_place(const std::string &place)
+{
+    const std::string material = "/materials/0";
+    if (place.compare(0, material.size(), material) == 0)
+        return place.substr(material.size());
+    return place.empty() ? place : "/extras" + place;
+}
 
 std::string preset_path(const std::string &name)
 {
