@@ -83,10 +83,13 @@ static bool set_lights(stage *st, const preview_options *o, const scene_camera *
     st->lights = calloc(count > 0 ? (size_t)count : 1U, sizeof *st->lights);
     if (st->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
-    for (int i = 0; i < count; ++i)
-        st->lights[i] = light_make(&from[i]);
+    for (int i = 0; i < count; ++i) {
+        if (from[i].kind == SCENE_LIGHT_RECT || from[i].kind == SCENE_LIGHT_DISK)
+            report_warning(r, "light \"%s\": area lights are not rendered", from[i].name);
+        else
+            st->lights[st->world.light_count++] = light_make(&from[i]);
+    }
     st->world.lights = st->lights;
-    st->world.light_count = count;
     return true;
 }
 
