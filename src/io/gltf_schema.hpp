@@ -63,6 +63,7 @@ struct schema {
 // The tables: glTF 2.0 itself, then one function for the extensions of each kind of object.
 const schema &root_schema();
 const std::vector<extension> &root_extensions();
+const std::vector<extension> &scene_extensions();
 const std::vector<extension> &node_extensions();
 const std::vector<extension> &primitive_extensions();
 const std::vector<extension> &material_extensions();
