@@ -179,6 +179,11 @@ uint32_t glint_material_features(const glint_material *material)
     return material->features;
 }
 
+const glint_material *glint_material_layer(const glint_material *material, glint_layer layer)
+{
+    return layer == GLINT_LAYER_COAT ? material->coat : material->base;
+}
+
 glint_surface glint_material_surface(const glint_material *material)
 {
     return material->options.surface;
@@ -292,13 +297,21 @@ void glint_eval(const glint_material *material, const glint_surface *surface, co
     memcpy(rgb, value.rgb, sizeof(value.rgb));
 }
 
-void glint_transmittance(const glint_material *material, const glint_surface *surface, const float wo[3], float rgb[3])
+void glint_transmittance(const glint_material *material, const glint_coat *coat, const float wo[3], const float *wi,
+                         float rgb[3])
 {
     checked c;
-    const int seen = begin(&c, material, surface, NULL, wo);
-    rgb[0] = rgb[1] = rgb[2] = seen ? 1.0F : 0.0F;
-    if (seen && material->model->transmittance)
-        material->model->transmittance(&c.query, rgb);
+    rgb[0] = rgb[1] = rgb[2] = 0.0F;
+    if (!material)
+        return;
+    glint_surface surface = material->options.surface;
+    if (coat)
+        surface.coat = coat;
+    if (!begin(&c, material, &surface, NULL, wo) || (wi && !light_up(&c, wi, 0.0F)))
+        return;
+    rgb[0] = rgb[1] = rgb[2] = 1.0F;
+    if (material->model->transmittance)
+        material->model->transmittance(&c.query, wi == NULL, rgb);
 }
 
 int glint_sample_direction(const glint_material *material, const glint_surface *surface,

@@ -161,6 +161,8 @@ typedef struct glint_allocator {
     void *user;
 } glint_allocator;
 
+typedef enum glint_layer { GLINT_LAYER_BASE = 0, GLINT_LAYER_COAT } glint_layer;
+
 /* What GLINT_MODEL_LAYERED is made of. Each layer is a material of its own, with its own normal, density, seed and
  * colours; where both count facets, give them different seeds, or they have the same facets in the same places.
  * Nothing is read from the other options of a layered material but its model and its allocator. */
@@ -242,6 +244,8 @@ GLINT_API glint_model glint_material_model(const glint_material *material);
  * has them, GLINT_FEATURE_SAMPLE_FOOTPRINT where no layer shows facets that its sampling does not know, the others
  * where both have them. */
 GLINT_API uint32_t glint_material_features(const glint_material *material);
+/* A layer of a layered material, which it belongs to; NULL of other materials. */
+GLINT_API const glint_material *glint_material_layer(const glint_material *material, glint_layer layer);
 /* The surface that a call without one uses; start from it to change a part. Its coat belongs to the material. */
 GLINT_API glint_surface glint_material_surface(const glint_material *material);
 
@@ -323,10 +327,17 @@ GLINT_API void glint_eval_value(const glint_material *material, const glint_surf
                                 const glint_footprint *footprint, const float wo[3], const float wi[3],
                                 const glint_light *light, glint_value *value);
 
-/* Share of the light from below the layers, such as emission, that leaves towards wo: 1 - w (1 - t(wo)) of a layered
- * material, linear RGB in [0, 1]; 1 for a material without a coat; 0 where nothing is seen from wo. */
-GLINT_API void glint_transmittance(const glint_material *material, const glint_surface *surface, const float wo[3],
-                                   float rgb[3]);
+/* What the coat of a layered material leaves of the base: 1 - w (1 - T(wo, wi)), linear RGB in [0, 1]. For clients that
+ * evaluate the layers one by one, and for light that comes from below them.
+ *
+ * coat    NULL: the material's own
+ * wo, wi  in the frame of coat->normal, whatever it is
+ * wi      NULL: light from below, such as emission, which passes once: 1 - w (1 - t(wo))
+ *
+ * 1 for other materials; 0 where wo or wi is no direction.
+ */
+GLINT_API void glint_transmittance(const glint_material *material, const glint_coat *coat, const float wo[3],
+                                   const float *wi, float rgb[3]);
 
 typedef struct glint_sample {
     float wi[3];

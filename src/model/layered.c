@@ -195,10 +195,15 @@ static void layered_eval_many(const model_query *q, size_t count, glint_value *v
         eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, value + i);
 }
 
-static void layered_transmittance(const model_query *q, float rgb[3])
+static void layered_transmittance(const model_query *q, int from_below, float rgb[3])
 {
     point p;
     find_point(q, &p);
+    if (!from_below) {
+        light_up(&p, q->wi);
+        find_kept(&p, rgb);
+        return;
+    }
     for (int c = 0; c < 3; c++)
         rgb[c] = p.weight > 0.0F ? 1.0F - p.weight * (1.0F - p.out[c]) : 1.0F;
 }

@@ -48,8 +48,8 @@ struct model {
     /* As glint_sample_direction and glint_pdf. */
     int (*sample)(const model_query *q, const float random[3], glint_sample *sample);
     float (*pdf)(const model_query *q);
-    /* As glint_transmittance. NULL: there is no coat. */
-    void (*transmittance)(const model_query *q, float rgb[3]);
+    /* As glint_transmittance; from_below: there is no wi. NULL: there is no coat. */
+    void (*transmittance)(const model_query *q, int from_below, float rgb[3]);
 };
 
 extern const struct model smooth_model;

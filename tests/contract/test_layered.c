@@ -62,7 +62,7 @@ static void without_a_coat_there_is_the_base_alone(void **state)
                              glint_sample_direction(both, NULL, NULL, wo, u, &b));
             assert_memory_equal(&a, &b, sizeof(a));
             float through[3];
-            glint_transmittance(both, NULL, wo, through);
+            glint_transmittance(both, NULL, wo, i % 2 ? wo : NULL, through);
             assert_true(through[0] == 1.0F && through[1] == 1.0F && through[2] == 1.0F);
         }
         glint_material_destroy(base);
@@ -179,8 +179,12 @@ static void the_sum_is_that_of_the_paper(void **state)
             glint_eval_value(base, NULL, &f, wo, wi, &light, &vb);
             glint_eval_value(coat, &c.surface, i % 2 ? &g : &f, wo_coat, wi_coat, &light, &vc);
             glint_eval_value(both, &s, &f, wo, wi, &light, &v);
-            float through[3];
-            glint_transmittance(both, &s, wo, through);
+            float through[3], left[3], in_its_frame[3];
+            glint_coat upright = c;
+            memcpy(upright.normal, glint_material_surface(both).coat->normal, sizeof(upright.normal));
+            glint_transmittance(both, &c, wo, NULL, through);
+            glint_transmittance(both, &c, wo, wi, left);
+            glint_transmittance(both, &upright, wo_coat, wi_coat, in_its_frame);
             for (int n = 0; n < 3; n++) {
                 const double to = let_through(&c.surface, 0.8, n, (double)wo_coat[2]);
                 const double ti = let_through(&c.surface, 0.8, n, (double)wi_coat[2]);
@@ -191,6 +195,7 @@ static void the_sum_is_that_of_the_paper(void **state)
                 /* The frame of the coat is rounded, and a glossy lobe of alpha .01 makes a hundred of each rounding. */
                 assert_true(fabs((double)v.smooth[n] - smooth) <= 1e-4 * smooth + 1e-7);
                 assert_true(fabs((double)through[n] - (1.0 - w * (1.0 - to))) < 1e-6);
+                assert_true(fabs((double)left[n] - kept) < 1e-5 && fabs((double)in_its_frame[n] - kept) < 1e-5);
                 if (co.model == GLINT_MODEL_SMOOTH)
                     assert_true(fabs((double)v.rgb[n] - rgb) <= 1e-4 * rgb + 1e-7);
             }
@@ -281,7 +286,7 @@ static void a_coat_without_a_direction_shows_nothing(void **state)
         float rgb[3];
         glint_eval(m, &s, NULL, up, up, NULL, rgb);
         assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
-        glint_transmittance(m, &s, up, rgb);
+        glint_transmittance(m, &coat, up, NULL, rgb);
         assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
     }
     /* A tangent along the normal is no mistake where the coat is round. */
@@ -352,6 +357,9 @@ static void features_are_those_of_the_layers(void **state)
         assert_int_equal(glint_material_features(m) & seen, expected[i]);
         assert_true(glint_material_features(m) & GLINT_FEATURE_SAMPLE);
         assert_int_equal(glint_material_model(m), GLINT_MODEL_LAYERED);
+        assert_int_equal(glint_material_model(glint_material_layer(m, GLINT_LAYER_BASE)), c.options.layers.base->model);
+        assert_int_equal(glint_material_model(glint_material_layer(m, GLINT_LAYER_COAT)), c.options.layers.coat->model);
+        assert_null(glint_material_layer(glint_material_layer(m, GLINT_LAYER_COAT), GLINT_LAYER_BASE));
         glint_material_destroy(m);
     }
     /* A smooth coat has no facets that sampling would not know. */

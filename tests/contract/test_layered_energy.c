@@ -77,7 +77,7 @@ static void a_coat_reflects_no_more_than_it_keeps_from_the_base(void **state)
         for (int k = 0; k < 4; k++) {
             float wo[3], through[3];
             direction(k == 0 ? 0.0 : random_between(&random, 0.0, 1.56), random_between(&random, 0.0, 2.0 * PI), wo);
-            glint_transmittance(both, NULL, wo, through);
+            glint_transmittance(both, NULL, wo, NULL, through);
             const double albedo = sampled_albedo(coat, NULL, wo, SIDE, &random), sum = albedo + (double)through[0];
             /* With a diffuse part samples choose between two lobes: weights of up to 2 / .1, 2304 of them. The midpoint
              * rule for the facets alone is off by 3e-5 of what they reflect. */

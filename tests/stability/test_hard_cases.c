@@ -161,7 +161,7 @@ static void random_bits_are_sane(void **state)
                            0 };
         assert_sane(&v);
         float through[3];
-        glint_transmittance(m, &s, wo, through);
+        glint_transmittance(m, i % 2 ? &coat : NULL, wo, i % 3 ? wi : NULL, through);
         v = (glint_value){ { through[0], through[1], through[2] }, { 0 }, 0.0F, 0.0F, 0 };
         assert_sane(&v);
     }
