@@ -15,6 +15,28 @@ static vec3 to_world(const shade_layer *layer, const float local[3])
     return v3_normalize(v3_mad(in_plane, layer->z, (double)local[2]));
 }
 
+void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3])
+{
+    const shade_layer *const layer = &p->layers[1];
+    const glint_coat coat = { .surface = layer->surface,
+                              .weight = layer->weight,
+                              .normal = { 0.0F, 0.0F, 1.0F },
+                              .tangent = { 1.0F, 0.0F, 0.0F } };
+    float local[3];
+    if (wi != NULL)
+        to_local(layer, *wi, local);
+    glint_transmittance(p->whole, &coat, layer->wo, wi != NULL ? local : NULL, rgb);
+}
+
+/* How much of a layer's light from wi is seen. */
+static void weigh(const shade_point *p, int i, vec3 wi, float weight[3])
+{
+    if (i == 0 && p->layer_count == 2)
+        shade_below_coat(p, &wi, weight);
+    else
+        weight[0] = weight[1] = weight[2] = p->layers[i].weight;
+}
+
 /* A slope distribution of roughness alpha has the variance alpha^2 / 2 per axis; variances add. */
 static float widened(float alpha, double slope_variance)
 {
@@ -46,26 +68,35 @@ bool shade_faces(const shade_point *p, vec3 wi)
     return false;
 }
 
+/* The facets of both layers together, as glint_value has them. */
+static void add_facets(const glint_value *layer, glint_value *sum)
+{
+    const float both = sum->facet_count + layer->facet_count;
+    const float lit = sum->facet_count * sum->lit_probability + layer->facet_count * layer->lit_probability;
+    const bool is_first = !(sum->facet_count > 0.0F);
+    sum->lit_probability = is_first || !(both > 0.0F) ? layer->lit_probability : fminf(lit / both, 1.0F);
+    sum->facet_count = both;
+    sum->over_limit = sum->over_limit || layer->over_limit;
+}
+
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
 {
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
-        float local[3];
+        float local[3], weight[3];
         glint_value one;
         to_local(layer, wi, local);
-        glint_eval_value(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, local,
+        glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
                          &light, &one);
+        weigh(p, i, wi, weight);
         for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += layer->weight * one.rgb[c];
-            value->smooth[c] += layer->weight * one.smooth[c];
+            value->rgb[c] += weight[c] * one.rgb[c];
+            value->smooth[c] += weight[c] * one.smooth[c];
         }
-        if (layer->counts) {
-            value->facet_count = one.facet_count;
-            value->lit_probability = one.lit_probability;
-            value->over_limit = one.over_limit;
-        }
+        if (layer->counts)
+            add_facets(&one, value);
     }
 }
 
@@ -106,7 +137,9 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
         return false;
     out->wi = to_world(layer, sample.wi);
     out->pdf = sample.pdf * share;
+    float weight[3];
+    weigh(p, (int)(layer - p->layers), out->wi, weight);
     for (int c = 0; c < 3; ++c)
-        out->weight[c] = sample.weight[c] * layer->weight / share;
+        out->weight[c] = sample.weight[c] * weight[c] / share;
     return true;
 }
