@@ -13,6 +13,7 @@ static const struct subcommand {
     int (*run)(int argc, char **argv);
 } subcommands[] = {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
+    { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "materials", "list the material presets, or show one", command_materials },
