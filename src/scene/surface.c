@@ -2,6 +2,7 @@
 #include "scene/surface.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The least roughness that libglint takes. */
 #define ALPHA_MIN 1e-4F
@@ -108,9 +109,9 @@ static glint_material_options layer_options(const scene_material *m, glint_model
         o.coverage = m->glint.coverage;
         o.elongation = m->glint.elongation;
         o.density_variation = fminf(m->glint.density_variation, 8.0F); /* glTF sets no upper bound */
-        /* The one with GLINT_FEATURE_COLOR. */
-        if (model == GLINT_MODEL_DICTIONARY)
-            o.color_variation = m->glint.color_variation;
+        o.color_variation = m->glint.color_variation;
+        o.color_count = m->glint.color_count;
+        memcpy(o.colors, m->glint.colors, sizeof o.colors);
         o.seed = m->glint.seed;
     }
     const scene_texels t = scene_texels_of(m);
