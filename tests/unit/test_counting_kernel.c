@@ -242,6 +242,43 @@ static void mean_is_one_and_variance_follows_from_the_blending(void **state)
         }
 }
 
+/* A chroma part a.f of the factors has Var = 1/2 Var(a.T) / (N' p): the tints of all the facets that are lit, and of a
+ * fraction of one too. For hues and red less green Var(a.T) = 3/2. */
+static void chroma_varies_as_the_tints_of_lit_facets(void **state)
+{
+    (void)state;
+    static const double n[] = { 1.0, 30.0, 1e3, 1e6 }, p[] = { 1e-2, 0.4, 0.95 };
+    static float factor[3][COUNT], facets[COUNT];
+    float *const to_factor[3] = { factor[0], factor[1], factor[2] };
+    const tint_palette hues = palette_of(0, 1.0F);
+    const counting_width width = counting_widest(16);
+    uint64_t random = 19;
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 3; j++) {
+            moments m = { 0 }, inverse = { 0 };
+            for (int round = 0; round < 60; round++) {
+                fill(&random);
+                for (int i = 0; i < COUNT; i++) {
+                    a.dudx[i] = a.dvdy[i] = (float)random_log_between(&random, 1e-5, 1e-1);
+                    a.dudy[i] = a.dvdx[i] = 0.0F;
+                    a.density[i] = (float)n[k] / (a.dudx[i] * a.dudx[i]);
+                    a.p[i] = (float)p[j];
+                    moments_add(&inverse, 1.0 / counted(i));
+                }
+                width.tinted(&points, COUNT, &hues, to_factor, facets);
+                for (int i = 0; i < COUNT; i++)
+                    moments_add(&m, (double)factor[0][i] - (double)factor[1][i]);
+            }
+            const double expected = 0.5 * 1.5 * inverse.mean / p[j], sigma = moments_standard_error(&m);
+            printf("N %g p %g: chroma %+.1f sigma, variance over that of tints %.4f\n", n[k], p[j], m.mean / sigma,
+                   moments_variance(&m) / expected);
+            assert_true(fabs(m.mean) < 4.5 * sigma);
+            /* As for counts: 1 % for the blending, and noise. */
+            const double noise = 4.0 * sqrt((2.0 + 9.0 / (n[k] * p[j])) / m.count);
+            assert_true(fabs(moments_variance(&m) / expected - 1.0) < 0.01 + noise);
+        }
+}
+
 /* A pixel well inside a facet sees it lit or not, over the mean: variance (1 - p) / p. */
 static void facet_larger_than_the_pixel_is_lit_or_not(void **state)
 {
@@ -303,6 +340,7 @@ int main(void)
         cmocka_unit_test(hues_leave_the_mean_of_the_channels),
         cmocka_unit_test(colors_pop_no_more_than_counts),
         cmocka_unit_test(mean_is_one_and_variance_follows_from_the_blending),
+        cmocka_unit_test(chroma_varies_as_the_tints_of_lit_facets),
         cmocka_unit_test(facet_larger_than_the_pixel_is_lit_or_not),
         cmocka_unit_test(origin_is_a_place_like_any_other),
     };
