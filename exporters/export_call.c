@@ -2,6 +2,7 @@
 #include "exporters/export_call.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 report export_report(const glint_export_listener *listener)
 {
@@ -25,4 +26,9 @@ glint_export_result export_result(const report *r, bool done, char *message, siz
 glint_export_result export_wrong_usage(const char *text, char *message, size_t message_size)
 {
     return say(GLINT_EXPORT_WRONG_USAGE, text, message, message_size);
+}
+
+void glint_export_free(char *text)
+{
+    free(text);
 }

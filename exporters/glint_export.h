@@ -31,36 +31,50 @@ typedef enum glint_export_result {
     GLINT_EXPORT_WRONG_USAGE = 2 /* options that cannot be */
 } glint_export_result;
 
+/* NAME=VALUE, as on the command line. */
+typedef struct glint_export_assignment {
+    const char *name, *value;
+} glint_export_assignment;
+
 /* What every exporter tells its caller besides errors. */
 typedef struct glint_export_listener {
     void (*warn)(const char *text, void *user); /* NULL: warnings are dropped */
     void *user;
 } glint_export_listener;
 
-/* What a repeatable option of the command says: NAME=VALUE. */
-typedef struct glint_export_assignment {
-    const char *name, *value;
-} glint_export_assignment;
+/* Frees a text that one of these functions handed out; NULL is allowed. */
+GLINT_EXPORT_API void glint_export_free(char *text);
 
 /* ---- glTF ---- */
 
 typedef struct glint_export_gltf_options {
     size_t size;       /* set by GLINT_EXPORT_GLTF_OPTIONS_INIT */
     const char *input; /* .gltf or .glb */
-    /* NULL: nothing is written. The same kind of file as the input, which it may replace. */
+    /* The same kind of file as the input, which it may replace. In another folder, the files that a .gltf points to are
+     * copied there too. NULL: everything is checked and nothing written. */
     const char *output;
+    /* A material (its name, "materials/N" where it has none, "default" for that of primitives without one, "*" for all)
+     * = a preset. The last that fits counts. */
+    const glint_export_assignment *materials;
+    size_t material_count;
+    /* A JSON pointer = a JSON value, or a string without its quotes. "/glintDensity" means that property of every
+     * material above or, without any above, of every material with the extension; "/materials/3/extensions/
+     * GLINT_materials_glint/glintDensity" means one. */
+    const glint_export_assignment *values;
+    size_t value_count;
+    int strip; /* 1: first takes back all that earlier exports changed; without a record of them, the extension */
+    /* 1: writes OUT.fallback.glb or .gltf too: glints as a normal map, for viewers that do not know the extension */
+    int bake_fallback;
     glint_export_listener listener;
+    char **summary; /* not NULL: gets a JSON document of what was done; see docs/command.md */
 } glint_export_gltf_options;
 
 #define GLINT_EXPORT_GLTF_OPTIONS_INIT                                                                                 \
     {                                                                                                                  \
-        sizeof(glint_export_gltf_options), 0, 0,                                                                       \
-        {                                                                                                              \
-            0, 0                                                                                                       \
-        }                                                                                                              \
+        sizeof(glint_export_gltf_options), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0 }, 0                                         \
     }
 
-/* Checks a glTF 2.0 file and writes it, every byte as it was. */
+/* Puts presets on materials of a glTF 2.0 file and leaves every other byte of its JSON and its buffers as it is. */
 GLINT_EXPORT_API glint_export_result glint_export_gltf(const glint_export_gltf_options *options, char *message,
                                                        size_t message_size);
 

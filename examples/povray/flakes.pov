@@ -25,7 +25,7 @@ Glint_Point_Light(<1.5, 4.0, 4.5>, <24, 22, 26>, 0.25)
 
 sky_sphere {
   pigment {
-    gradient y
+    function { max(0, y) }
     color_map { [0 color rgb <0.10, 0.09, 0.11>] [0.5 color rgb <0.32, 0.34, 0.40>] [1 color rgb <0.55, 0.58, 0.66>] }
   }
 }

@@ -24,7 +24,7 @@ Glint_Point_Light(<2.2, 1.6, -2.0>, <1.0, 1.5, 2.6>, 0.1)
 
 sky_sphere {
   pigment {
-    gradient y
+    function { max(0, y) }
     color_map {
       [0.00 color rgb <0.55, 0.34, 0.28>]
       [0.12 color rgb <0.24, 0.24, 0.40>]

@@ -7,13 +7,22 @@
 /* Below this angular radius a light has hard shadows: that of the sun. Taste. */
 #define POINT_RADIUS_RAD 5e-3
 
+static double panel_area(const scene_light *l)
+{
+    const double area = (double)l->width_m * (double)l->height_m;
+    return l->kind == SCENE_LIGHT_DISK ? 0.25 * PI * area : area;
+}
+
 /* As seen from the middle of the scene. */
 static double angular_radius(const povray *p, const scene_light *l)
 {
     if (l->kind == SCENE_LIGHT_DIRECTIONAL)
         return 0.5 * (double)l->angular_diameter_rad;
     const double distance = vec_length(vec_sub(matrix_column(l->to_world, 3), p->centre));
-    return (double)l->radius_m / fmax(distance, 1e-9);
+    const bool panel = l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
+    /* Of a panel: that of the disc of its area. */
+    const double radius = panel ? sqrt(panel_area(l) / PI) : (double)l->radius_m;
+    return radius / fmax(distance, 1e-9);
 }
 
 static bool is_point(const povray *p, const scene_light *l)
@@ -26,7 +35,10 @@ static double weight(const povray *p, const scene_light *l)
 {
     const double distance = vec_length(vec_sub(matrix_column(l->to_world, 3), p->centre));
     const double sum = (double)(l->color[0] + l->color[1] + l->color[2]) * (double)l->intensity;
-    return l->kind == SCENE_LIGHT_DIRECTIONAL ? sum : sum / fmax(distance * distance, 1e-18);
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL)
+        return sum;
+    const bool panel = l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
+    return (panel ? sum * panel_area(l) : sum) / fmax(distance * distance, 1e-18);
 }
 
 double lights_width2(const povray *p)
@@ -51,7 +63,7 @@ bool lights_single_point(const povray *p, vec *at)
         *at = vec_add(p->centre, vec_scale(vec_unit(matrix_column(l->to_world, 2)), 1e6 * p->radius));
     else
         *at = matrix_column(l->to_world, 3);
-    return l->kind != SCENE_LIGHT_SPOT;
+    return l->kind == SCENE_LIGHT_DIRECTIONAL || l->kind == SCENE_LIGHT_POINT;
 }
 
 typedef struct studio_light {
@@ -97,33 +109,72 @@ static void write_studio(text *out)
                     "    }\n  }\n}\n\n");
 }
 
-static void write_light(const povray *p, int index, text *out)
+/* A rectangle, or a disc as the square of its area. */
+static void write_panel(const povray *p, const scene_light *l, const char *name, text *out)
 {
-    const scene_light *l = &p->lights[index];
-    char name[NAME_LENGTH];
-    name_comment(name, p->studio ? studio[index].name : l->name);
-    const bool point = is_point(p, l);
+    const double round = l->kind == SCENE_LIGHT_DISK ? sqrt(0.25 * PI) : 1.0;
+    text_print(out, "// light \"%s\": %s\nGlint_Panel_Light(", name,
+               l->kind == SCENE_LIGHT_DISK ? "a disc, as a square of its area" : "a rectangle");
+    text_vector(out, vec_scale(matrix_column(l->to_world, 3), p->unit));
+    text_print(out, ", ");
+    text_vector(out, vec_scale(vec_unit(matrix_column(l->to_world, 0)), (double)l->width_m * round * p->unit));
+    text_print(out, ", ");
+    text_vector(out, vec_scale(vec_unit(matrix_column(l->to_world, 1)), (double)l->height_m * round * p->unit));
+    text_print(out, ", ");
+    text_vector(out, vec_scale(vec_of(l->color), (double)l->intensity));
+    text_print(out, ")\n");
+}
+
+static const char *macro_of(const scene_light *l)
+{
+    switch (l->kind) {
+    case SCENE_LIGHT_DIRECTIONAL:
+        return "Glint_Sun";
+    case SCENE_LIGHT_SPOT:
+        return "Glint_Spot_Light";
+    case SCENE_LIGHT_POINT:
+    case SCENE_LIGHT_RECT:
+    case SCENE_LIGHT_DISK:
+        break;
+    }
+    return "Glint_Point_Light";
+}
+
+static void write_punctual(const povray *p, const scene_light *l, const char *name, text *out)
+{
+    const bool point = is_point(p, l), sun = l->kind == SCENE_LIGHT_DIRECTIONAL;
     const vec towards = vec_unit(matrix_column(l->to_world, 2));
-    const vec at = vec_scale(matrix_column(l->to_world, 3), p->unit);
-    const bool sun = l->kind == SCENE_LIGHT_DIRECTIONAL;
-    /* W/sr over the square of a distance in POV-Ray's units. */
-    const double scale = (double)l->intensity * (sun ? 1.0 : p->unit * p->unit);
-    const vec color = vec_scale(vec_of(l->color), scale);
-    if (!(vec_length(color) > 0.0))
-        return;
-    text_print(out, "// light \"%s\"%s\n", name, point ? ", so small that its shadows are hard" : "");
-    text_print(out, "%s(", sun ? "Glint_Sun" : l->kind == SCENE_LIGHT_SPOT ? "Glint_Spot_Light" : "Glint_Point_Light");
-    text_vector(out, sun ? towards : at);
+    text_print(out, "// light \"%s\"%s\n%s(", name, point ? ", so small that its shadows are hard" : "", macro_of(l));
+    text_vector(out, sun ? towards : vec_scale(matrix_column(l->to_world, 3), p->unit));
     text_print(out, ", ");
     if (l->kind == SCENE_LIGHT_SPOT) {
         text_vector(out, vec_scale(towards, -1.0));
         text_print(out, ", ");
     }
-    text_vector(out, color);
+    /* W/sr over the square of a distance in POV-Ray's units. */
+    text_vector(out, vec_scale(vec_of(l->color), (double)l->intensity * (sun ? 1.0 : p->unit * p->unit)));
     text_print(out, ", %.9g", point ? 0.0 : sun ? (double)l->angular_diameter_rad : (double)l->radius_m * p->unit);
     if (l->kind == SCENE_LIGHT_SPOT)
         text_print(out, ", %.9g, %.9g", (double)l->inner_cone_rad, (double)l->outer_cone_rad);
     text_print(out, ")\n");
+}
+
+static void write_light(const povray *p, int index, text *out)
+{
+    const scene_light *l = &p->lights[index];
+    char name[NAME_LENGTH];
+    name_comment(name, p->studio ? studio[index].name : l->name);
+    if (!(l->intensity > 0.0F) || !(l->color[0] + l->color[1] + l->color[2] > 0.0F))
+        return;
+    if (l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK) {
+        write_panel(p, l, name, out);
+        report_warning(p->report,
+                       "%s: light \"%s\": POV-Ray's area light shines to all sides alike; that it shines to "
+                       "one side, with the cosine, is left out",
+                       p->options->input, name);
+    } else {
+        write_punctual(p, l, name, out);
+    }
     if (l->range > 0.0F)
         report_warning(p->report, "%s: light \"%s\": its range of %g m is left out: POV-Ray's light never ends",
                        p->options->input, name, (double)l->range);
@@ -136,4 +187,6 @@ void lights_write(const povray *p, text *out)
     for (int i = 0; i < p->light_count; ++i)
         write_light(p, i, out);
     text_print(out, "\n");
+    if (p->scene->environment.present)
+        report_warning(p->report, "%s: the environment (EXT_lights_image_based) is left out", p->options->input);
 }

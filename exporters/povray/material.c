@@ -133,7 +133,10 @@ void material_warn(const povray *p, int material)
         { m->alpha_mode == SCENE_ALPHA_BLEND, "alphaMode BLEND is left out: the surface is opaque" },
         { m->alpha_mode == SCENE_ALPHA_MASK, "alphaMode MASK is left out: the surface has no holes" },
         { flakes && g->layer == SCENE_LAYER_CLEARCOAT, "flakes in the clear coat are left out: the coat is smooth" },
-        { flakes && g->color_variation > 0.0F, "glintColorVariation is left out: all flakes have one colour" },
+        { m->coat_glint.present && m->coat_glint.factor > 0.0F,
+          "flakes in the clear coat are left out: the coat is smooth" },
+        { flakes && (g->color_variation > 0.0F || g->color_count > 0),
+          "glintColorVariation and glintColors are left out: all flakes have one colour" },
         { flakes && g->density_variation > 0.0F, "glintDensityVariation is left out: the density is even" },
         { flakes && g->structure == SCENE_STRUCTURE_EXAMPLE, "glintStructure \"example\" is exported as \"flakes\"" },
         { flakes && g->layer == SCENE_LAYER_BASE && g->distribution == GLINT_DISTRIBUTION_GGX &&

@@ -2,6 +2,7 @@
 #ifndef IO_GLTF_SCHEMA_HPP
 #define IO_GLTF_SCHEMA_HPP
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ enum class kind {
     index,      // into the array at `of`, a JSON pointer without its first slash
     choice,     // one of the strings, or integers, of `of`, separated by |
     numbers,    // array of numbers
+    triples,    // array of arrays of three numbers
     indices,    // array of distinct indices into the array at `of`
     texts,      // array of distinct strings
     object,     // as `schema` says
@@ -62,6 +64,7 @@ struct schema {
 // The tables: glTF 2.0 itself, then one function for the extensions of each kind of object.
 const schema &root_schema();
 const std::vector<extension> &root_extensions();
+const std::vector<extension> &scene_extensions();
 const std::vector<extension> &node_extensions();
 const std::vector<extension> &primitive_extensions();
 const std::vector<extension> &material_extensions();
@@ -78,6 +81,7 @@ property integer(const char *name, double low, double high);
 property index(const char *name, const char *of);
 property choice(const char *name, const char *of);
 property numbers(const char *name, size_t count, double low, double high);
+property triples(const char *name, size_t min_count, size_t max_count, double low, double high);
 property numbers_between(const char *name, size_t min_count, size_t max_count);
 property indices(const char *name, const char *of, size_t min_count);
 property texts(const char *name);
@@ -87,8 +91,21 @@ property index_map(const char *name, const char *of);
 property index_maps(const char *name, const char *of);
 property integer_map(const char *name, double low, double high);
 
-// Throws a file_error with the JSON pointer of the first value that breaks a table. Integers that are written as 3.0 or
-// 3e0, which glTF 2.0 section 2.7.1 allows, become integers.
+// A value that breaks a table.
+struct finding {
+    const char *code; // TYPE, RANGE, INDEX, ENUM, COUNT, DUPLICATE or REQUIRED
+    std::string pointer, found, expected;
+};
+using finding_visitor = std::function<void(const finding &)>;
+
+// "found X, expected Y"
+std::string finding_text(const finding &f);
+
+// Tells of every value that breaks a table. Integers that are written as 3.0 or 3e0, which glTF 2.0 section 2.7.1
+// allows, become integers.
+void check_schema(json &root, const finding_visitor &visit);
+
+// The same, but throws a file_error for the first.
 void check_schema(json &root);
 
 } // namespace gltf
