@@ -74,15 +74,20 @@ static void write_ini(const povray *p, text *out)
         p->file, p->file, p->file, p->options->width, p->options->height);
 }
 
+static bool put_bytes(folder *f, const povray *p, const char *name, const void *bytes, size_t count)
+{
+    if (p->options->wrote)
+        p->options->wrote(name, p->options->listener.user);
+    return folder_write(f, name, bytes, count, p->report);
+}
+
 static bool put(folder *f, const povray *p, const char *ending, const text *t, report *r)
 {
     char name[2 * NAME_LENGTH];
     snprintf(name, sizeof name, "%s%s", p->file, ending);
     if (t->failed)
         return report_error(r, "%s: out of memory", p->options->input);
-    if (p->options->wrote)
-        p->options->wrote(name, p->options->listener.user);
-    return folder_write(f, name, t->bytes ? t->bytes : "", t->length, r);
+    return put_bytes(f, p, name, t->bytes ? t->bytes : "", t->length);
 }
 
 static bool write_folder(const povray *p, const text *scene_text, const text *ini)
@@ -90,11 +95,27 @@ static bool write_folder(const povray *p, const text *scene_text, const text *in
     folder f = { 0 };
     report *r = p->report;
     const size_t size = strlen((const char *)glint_inc);
-    bool done = folder_open(&f, p->options->output, r) && folder_write(&f, "glint.inc", glint_inc, size, r) &&
+    bool done = folder_open(&f, p->options->output, r) && put_bytes(&f, p, "glint.inc", glint_inc, size) &&
                 textures_write(p, &f) && put(&f, p, "_materials.inc", &p->materials, r) &&
                 put(&f, p, ".pov", scene_text, r) && put(&f, p, ".ini", ini, r) && folder_commit(&f, r);
     folder_close(&f);
     return done;
+}
+
+/* Those that something wears: warnings about others would only be in the way. */
+static void write_materials(povray *p)
+{
+    const scene *s = p->scene;
+    begin_file(&p->materials, p, "_materials.inc", "materials; each is a macro of parameters and a texture");
+    for (int m = 0; m < s->material_count; ++m) {
+        bool worn = false;
+        for (int i = 0; i < s->instance_count && !worn; ++i)
+            worn = s->meshes[s->instances[i].mesh].material == m;
+        if (!worn)
+            continue;
+        material_warn(p, m);
+        material_write(p, m);
+    }
 }
 
 static bool export_scene(povray *p)
@@ -115,9 +136,7 @@ static bool export_scene(povray *p)
             p->lights = studio;
             p->light_count = STUDIO_LIGHTS;
         }
-        begin_file(&p->materials, p, "_materials.inc", "materials; each is a macro of parameters and a texture");
-        for (int i = 0; i < p->scene->material_count; ++i)
-            material_write(p, i);
+        write_materials(p);
         objects_write(p);
         write_scene(p, &scene_text);
         write_ini(p, &ini);

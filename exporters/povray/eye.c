@@ -66,9 +66,7 @@ static bool look_through(povray *p, const scene_camera *c)
     const double aspect = picture_aspect(p);
     e->half_height = e->perspective ? tan(0.5 * (double)c->yfov_rad) : fabs((double)c->ymag);
     e->half_width = e->perspective ? e->half_height * (double)c->aspect : fabs((double)c->xmag);
-    if (e->perspective && !(c->aspect > 0.0F))
-        e->half_width = e->half_height * aspect;
-    else if (aspect >= e->half_width / e->half_height)
+    if ((e->perspective && !(c->aspect > 0.0F)) || aspect >= e->half_width / e->half_height)
         e->half_width = e->half_height * aspect;
     else
         e->half_height = e->half_width / aspect;

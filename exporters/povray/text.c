@@ -47,18 +47,20 @@ void text_add(text *t, const char *bytes, size_t count)
 
 void text_print(text *t, const char *format, ...)
 {
-    va_list arguments, again;
+    va_list arguments;
     va_start(arguments, format);
-    va_copy(again, arguments);
     const int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    if (length < 0)
+    if (length < 0) {
         t->failed = true;
-    else if (reserve(t, (size_t)length)) {
-        vsnprintf(t->bytes + t->length, (size_t)length + 1, format, again);
-        t->length += (size_t)length;
+        return;
     }
-    va_end(again);
+    if (!reserve(t, (size_t)length))
+        return;
+    va_start(arguments, format);
+    vsnprintf(t->bytes + t->length, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    t->length += (size_t)length;
 }
 
 void text_vector(text *t, vec v)
