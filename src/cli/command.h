@@ -12,6 +12,7 @@ enum { COMMAND_DONE = 0, COMMAND_BAD_INPUT = 1, COMMAND_WRONG_USAGE = 2 };
 /* One file each. argv[0] is the subcommand's own name; they return an exit code. */
 int command_render(int argc, char **argv);
 int command_eval(int argc, char **argv);
+int command_example(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
 

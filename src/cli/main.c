@@ -14,6 +14,7 @@ static const struct subcommand {
 } subcommands[] = {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
     { "eval", "evaluate a material for queries on standard input", command_eval },
+    { "example", "write a built-in normal map of the example model", command_example },
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "materials", "list the material presets, or show one", command_materials },
 };

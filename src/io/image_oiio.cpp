@@ -232,12 +232,7 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
 
 bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
 {
-    image_bytes bytes;
-    if (!image_bytes_load(&picture, &bytes, r))
-        return false;
-    const bool decoded = guarded(picture.name, r, [&] { return decode_texels(bytes, picture.name, out, r); });
-    image_bytes_free(&bytes);
-    if (!decoded)
+    if (!image_texels(&picture, out, r))
         return false;
     if (srgb && !mipmap_decode_srgb(out))
         return report_error(r, "%s: does not fit into memory", picture.name);
@@ -349,6 +344,24 @@ bool image_write_png(const char *path, const image *i, float exposure_ev, report
         spec.attribute("oiio:UnassociatedAlpha", 1);
         return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
     });
+}
+
+bool image_write_data_png(const char *path, int width, int height, const uint16_t *rgb, report *r)
+{
+    return guarded(path, r, [&] {
+        const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT16);
+        return write_picture("png", spec, OIIO::TypeDesc::UINT16, rgb, path, r);
+    });
+}
+
+bool image_texels(const scene_image *picture, mipmap *out, report *r)
+{
+    image_bytes bytes;
+    if (!image_bytes_load(picture, &bytes, r))
+        return false;
+    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
+    image_bytes_free(&bytes);
+    return decoded;
 }
 
 bool textures_open(const scene *s, textures **out, report *r)

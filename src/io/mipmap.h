@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "scene/report.h"
+#include "scene/scene.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,6 +41,10 @@ void mipmap_spread_grey(mipmap *m);
 
 /* Turns level 0 from sRGB in MIPMAP_UNORM16 into linear MIPMAP_HALF; alpha is linear in both. False without memory. */
 bool mipmap_decode_srgb(mipmap *m);
+
+/* Decodes a picture into level 0 of MIPMAP_UNORM16, as the file stores it; what cannot be decoded is an error that
+ * names it. In image_oiio.cpp. mipmap_free in any case. */
+bool image_texels(const scene_image *picture, mipmap *out, report *r);
 
 /* Computes all other levels from level 0: every texel is the exact mean of the area that it covers. */
 void mipmap_build(mipmap *m);

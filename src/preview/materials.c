@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "io/example_map.h"
 #include "preview/preview.h"
 #include "scene/surface.h"
 
@@ -28,9 +29,16 @@ static void warn_of_unrendered(const scene *s, int index, glint_model model, rep
             r,
             "%s: materials/%d (\"%s\"): glintDensityVariation %g is not rendered by the %s model; the density is even",
             path, index, name_of(m), (double)g->density_variation, glint_model_name(model));
-    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
-        report_warning(r, "%s: materials/%d (\"%s\"): glintStructure \"example\" is rendered as \"flakes\"", path,
-                       index, name_of(m));
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE && model != GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): glintStructure \"example\" is not rendered by the %s model; flakes "
+                       "stand in for the normal map",
+                       path, index, name_of(m), glint_model_name(model));
+    if (g->structure != SCENE_STRUCTURE_EXAMPLE && model == GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): has no glintExampleTexture for the example model; 16 x 16 flat "
+                       "facets that follow its roughness stand in",
+                       path, index, name_of(m));
 }
 
 /* Glints that are laid out by texture coordinates need some. */
@@ -48,29 +56,34 @@ static void warn_of_missing_texcoords(const scene *s, report *r)
     }
 }
 
-static bool make_layer(const scene *s, int index, const char *layer, const glint_material_options *options,
-                       glint_material **out, bool *counts, report *r)
+static bool make_layer(const scene *s, int index, const char *layer, glint_material_options *options,
+                       glint_material **out, bool *counts, bool *mapped, report *r)
 {
     char message[256] = "";
+    float *normals = NULL;
+    if (options->model == GLINT_MODEL_EXAMPLE && !example_map_open(s, &s->materials[index], options, &normals, r))
+        return false;
     const glint_result result = glint_material_create(options, out, message, sizeof message);
+    *counts = (glint_model_features(options->model) & GLINT_FEATURE_DISCRETE) != 0;
+    *mapped = normals != NULL;
+    free(normals);
     if (result != GLINT_OK)
         return report_error(r, "%s: materials/%d (\"%s\"), %s: %s", s->path != NULL ? s->path : "scene", index,
                             name_of(&s->materials[index]), layer,
                             message[0] != '\0' ? message : glint_result_text(result));
-    *counts = (glint_model_features(options->model) & GLINT_FEATURE_DISCRETE) != 0;
     return true;
 }
 
 static bool make_layers(const scene *s, int index, glint_model model, material_layers *out, report *r)
 {
     const scene_material *const m = &s->materials[index];
-    const glint_material_options base = scene_base_options(m, model);
-    if (!make_layer(s, index, "base", &base, &out->base, &out->base_counts, r))
+    glint_material_options base = scene_base_options(m, model);
+    if (!make_layer(s, index, "base", &base, &out->base, &out->base_counts, &out->base_mapped, r))
         return false;
     if (!(m->clearcoat > 0.0F))
         return true;
-    const glint_material_options coat = scene_coat_options(m, model);
-    return make_layer(s, index, "clear coat", &coat, &out->coat, &out->coat_counts, r);
+    glint_material_options coat = scene_coat_options(m, model);
+    return make_layer(s, index, "clear coat", &coat, &out->coat, &out->coat_counts, &out->coat_mapped, r);
 }
 
 bool materials_make(const scene *s, int model, materials *out, report *r)
@@ -81,8 +94,8 @@ bool materials_make(const scene *s, int model, materials *out, report *r)
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
-    const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
+        const glint_model wanted = model == PREVIEW_MODEL_AUTO ? scene_model_of(&s->materials[i]) : (glint_model)model;
         warn_of_unrendered(s, i, wanted, r);
         if (!make_layers(s, i, wanted, &out->layers[i], r)) {
             materials_free(out);

@@ -13,6 +13,7 @@ typedef struct shade_layer {
     float wo[3];  /* to the viewer, in that frame */
     float weight; /* what the layers above leave of it, or how much of the surface the coat covers */
     bool counts;  /* wants the footprint */
+    bool mapped;  /* shows a normal map: x lies along u and y along v, so that the frame may be left-handed */
 } shade_layer;
 
 typedef struct shade_point {

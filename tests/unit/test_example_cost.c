@@ -7,7 +7,7 @@
 static size_t memory_of(const example *e)
 {
     const size_t tiles = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, e->levels);
-    const size_t ranges = example_tiles_before(e, 0, EXAMPLE_LEAST_MAP_LEVEL);
+    const size_t ranges = example_tiles_before(e, 0, e->levels);
     const size_t maps = tiles * e->tiles.length + SLOPE_MOST_LENGTH;
     const slope_map *last = &e->overall.maps[e->overall.length - 1];
     return sizeof(*e) + (size_t)e->size * e->size * sizeof(example_texel) + ranges * sizeof(slope_range) +
@@ -61,7 +61,7 @@ static void time_patch(const bench *b, const seed_surface *all, double sigma, do
     const example *e = b->material.baked;
     const double step = sigma * sqrt(12.0);
     const double spread[3] = { sigma * sigma, 0.0, sigma * sigma };
-    const double reach = (double)SLOPE_REACH * (sigma + sqrt((double)e->seed_variance));
+    const double reach = (double)SLOPE_REACH * (sigma + sqrt((double)e->lattice.seed_variance));
     double sink = 0.0; /* keeps the compiler from leaving the work out */
     seed_gaussian *near = malloc(all->count * sizeof(*near));
     int summed = 0;
