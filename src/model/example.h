@@ -25,6 +25,11 @@ typedef struct example_quad {
     float jacobian[4][4]; /* xx, xy, yx, yy */
 } example_quad;
 
+/* Mean slopes of a tile's seeds, and the most that one of them spreads along each axis. */
+typedef struct tile_slopes {
+    float low[2], high[2], variance[2];
+} tile_slopes;
+
 /* E[max(w . s, -c)] over the slopes s of the whole surface, for directions w and cotangents c: see example_masking.c.
  */
 enum { EXAMPLE_MASKING_DIRECTIONS = 32, EXAMPLE_MASKING_ANGLES = 32 };
@@ -38,11 +43,11 @@ typedef struct example_masking {
 /* Seeds, maps and masking of one material. */
 typedef struct example {
     uint32_t size, levels;                     /* levels - 1 is the top: one tile */
-    uint32_t first_range[EXAMPLE_MOST_LEVELS]; /* of each level, in ranges */
+    uint32_t first_tile[EXAMPLE_MOST_LEVELS];  /* of each level, in slopes */
     uint32_t first_chain[EXAMPLE_MOST_LEVELS]; /* of each level with maps, in the chains of tiles */
     float slope_variance;                      /* sigma_r^2 and the facets' own roughness */
     example_quad *quads;                       /* size^2 / 4 */
-    slope_range *ranges;                       /* of the tiles of every level, spread and all */
+    tile_slopes *slopes;                       /* of the tiles of every level */
     slope_maps tiles;                          /* chains, level by level */
     slope_maps overall;                        /* one chain: the whole surface */
     float *row_sums;                           /* of the first map of overall */
@@ -82,7 +87,7 @@ static inline example_texel example_texel_at(const example *e, uint32_t x, uint3
 /* Slope of texel i of the options' normals; false when it is larger than 8, or not a number. */
 int example_normal_slope(const glint_example *o, uint32_t i, float slope[2]);
 
-/* Fills quads, ranges and slope_variance from the options; the lattice is there. */
+/* Fills quads, slopes and slope_variance from the options; the lattice is there. */
 void example_seed(example *e, const glint_material_options *o);
 /* Places every map; returns how many codes the maps need. */
 size_t example_place_maps(example *e);

@@ -119,7 +119,7 @@ static void extend(slope_range *range, float x, float y, float reach_x, float re
 }
 
 /* Slopes of a tile's seeds, their spread over the place included. */
-static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uint32_t ty, float reach)
+static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uint32_t ty)
 {
     const uint32_t side = 2U << level;
     slope_range range = EMPTY;
@@ -127,9 +127,25 @@ static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uin
         for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
             const example_texel t = example_texel_at(e, x, y);
             const covariance2 c = seed_spread(e, &t);
-            extend(&range, t.slope[0], t.slope[1], reach * sqrtf(c.xx), reach * sqrtf(c.yy));
+            extend(&range, t.slope[0], t.slope[1], SLOPE_REACH * sqrtf(c.xx), SLOPE_REACH * sqrtf(c.yy));
         }
     return range;
+}
+
+static tile_slopes slopes_of_tile(const example *e, uint32_t level, uint32_t tx, uint32_t ty)
+{
+    const uint32_t side = 2U << level;
+    slope_range range = EMPTY;
+    covariance2 most = { 0.0F, 0.0F, 0.0F };
+    for (uint32_t y = ty * side; y < (ty + 1) * side; y++)
+        for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
+            const example_texel t = example_texel_at(e, x, y);
+            const covariance2 c = seed_spread(e, &t);
+            extend(&range, t.slope[0], t.slope[1], 0.0F, 0.0F);
+            most.xx = c.xx > most.xx ? c.xx : most.xx;
+            most.yy = c.yy > most.yy ? c.yy : most.yy;
+        }
+    return (tile_slopes){ { range.low[0], range.low[1] }, { range.high[0], range.high[1] }, { most.xx, most.yy } };
 }
 
 static float width(const slope_range *r)
@@ -148,7 +164,7 @@ static float intrinsic_roughness(const example *e, const glint_material_options 
     const float rms = sqrtf(sum / (float)(e->size * e->size));
     /* A sixth: 36 spots across a Gaussian distribution, which the eye still tells apart (taste). */
     const float sigma = o->example.sigma_r > 0.0F ? o->example.sigma_r : rms / 6.0F;
-    const slope_range all = tile_range(e, e->levels - 1, 0, 0, SLOPE_REACH);
+    const slope_range all = tile_range(e, e->levels - 1, 0, 0);
     const float least = width(&all) / SLOPE_CELLS;
     return sigma > least ? (sigma > 1e-3F ? sigma : 1e-3F) : (least > 1e-3F ? least : 1e-3F);
 }
@@ -161,12 +177,11 @@ void example_seed(example *e, const glint_material_options *o)
     const float sigma_r = intrinsic_roughness(e, o);
     /* A Beckmann lobe of roughness alpha has slopes of variance alpha^2 / 2. */
     e->slope_variance = sigma_r * sigma_r + 0.5F * o->facet_alpha * o->facet_alpha;
-    slope_range *range = e->ranges;
+    tile_slopes *tile = e->slopes;
     for (uint32_t level = 0; level < e->levels; level++)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++)
-                /* Below a small footprint the mean slope moves by up to another reach. */
-                *range++ = tile_range(e, level, x, y, 1.5F * SLOPE_REACH);
+                *tile++ = slopes_of_tile(e, level, x, y);
 }
 
 /* ---- the whole surface ---- */
@@ -274,7 +289,7 @@ size_t example_place_maps(example *e)
     for (uint32_t level = EXAMPLE_LEAST_MAP_LEVEL; level < e->levels; level++)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++) {
-                const slope_range range = tile_range(e, level, x, y, SLOPE_REACH);
+                const slope_range range = tile_range(e, level, x, y);
                 slope_maps_place(&e->tiles, chain++, &range, &codes);
             }
     overall_pass p = { e, NULL, EMPTY, 1e30F };

@@ -15,13 +15,19 @@
 /* Most that the Gaussian may vary across a tile that is taken whole, in units of its peak, and most of its mass that
  * such a tile may hold where another example covers a part of it (fit: see tests/unit/test_example_truth.c). */
 #define MOST_VARIATION 0.5F
-#define MOST_SHARED_MASS 0.01F
+#define MOST_SHARED_MASS 0.03F
 
 /* Footprints narrower than this many texels see the ripple of the seeds, whose sum is not quite flat: their mass is
  * summed up, and taken as one for others. So do those over several scattered examples, which leave gaps of parts of a
  * texel where they meet, up to this many. */
 #define RIPPLE_SIGMA 0.5F
 #define SEAM_SIGMA 2.0F
+
+/* Tiles that will be divided are looked up in their maps from this level on (cost). */
+#define LEAST_TRIED_LEVEL 2
+
+/* So many quads are looked at one by one rather than by their tiles (cost). */
+#define FEW_QUADS 100
 
 /* A tile of the example. */
 typedef struct node {
@@ -33,21 +39,25 @@ typedef struct node {
 /* Four children for each level that is entered, and the tiles that the descent starts with. */
 enum { STACK = 3 * EXAMPLE_MOST_LEVELS + 9 };
 
-/* Whether no seed of a tile can have the slope. */
-static int is_dark(const example_view *v, const node *n)
+/* Whether no seed of a tile can have the slope. Place and slope of a seed are one Gaussian: wherever in it the
+ * footprint lies, its exponent is at least that of the slope alone, with its spread over all of the seed. */
+static int is_dark(const example_view *v, int level, uint32_t x, uint32_t y)
 {
-    const slope_range *r =
-        &v->e->ranges[v->e->first_range[n->level] + example_tile(v->e, (uint32_t)n->level, n->x, n->y)];
-    const float reach = v->slope_reach;
-    return v->slope[0] < r->low[0] - reach || v->slope[0] > r->high[0] + reach || v->slope[1] < r->low[1] - reach ||
-           v->slope[1] > r->high[1] + reach;
+    const tile_slopes *t = &v->e->slopes[v->e->first_tile[level] + example_tile(v->e, (uint32_t)level, x, y)];
+    for (int k = 0; k < 2; k++) {
+        const float below = t->low[k] - v->slope[k], above = v->slope[k] - t->high[k];
+        const float away = below > above ? below : above;
+        if (away > 0.0F && away * away > SLOPE_REACH * SLOPE_REACH * (t->variance[k] + v->slope_variance))
+            return 1;
+    }
+    return 0;
 }
 
 /* Density of the mean of a tile's seeds: Eq. 7. */
 static float tile_density(const example_view *v, const node *n)
 {
     const uint32_t chain = v->e->first_chain[n->level] + example_tile(v->e, (uint32_t)n->level, n->x, n->y);
-    return slope_maps_density(&v->e->tiles, chain, v->slope_variance, v->slope[0], v->slope[1]);
+    return slope_maps_blended(&v->e->tiles, chain, &v->blend, v->slope[0], v->slope[1]);
 }
 
 static void to_frame(const example_view *v, float x, float y, float frame[2])
@@ -62,14 +72,12 @@ static uint32_t owned_quarters(const example_view *v, const node *n, float x, fl
 {
     if (!n->rivals)
         return 15U;
-    uint32_t owned = 0;
-    for (int k = 0; k < 4; k++) {
-        float at[2];
-        to_frame(v, x + (k & 1 ? 0.25F : -0.25F) * side, y + (k & 2 ? 0.25F : -0.25F) * side, at);
-        if (owns_point(v->others, v->owner, n->rivals, at[0], at[1]))
-            owned |= 1U << k;
-    }
-    return owned;
+    const matrix2 m = v->self->as.to_frame;
+    float at[2];
+    to_frame(v, x, y, at);
+    const float right[2] = { 0.25F * side * m.xx, 0.25F * side * m.yx };
+    const float up[2] = { 0.25F * side * m.xy, 0.25F * side * m.yy };
+    return quarters_owned(v->others, v->owner, n->rivals, at, right, up);
 }
 
 static float share_of(uint32_t quarters)
@@ -77,9 +85,30 @@ static float share_of(uint32_t quarters)
     return 0.25F * (float)((quarters & 1U) + (quarters >> 1 & 1U) + (quarters >> 2 & 1U) + (quarters >> 3));
 }
 
+/* How much the Gaussian varies across a tile by its curvature alone. */
+static float curve_of(const example_view *v, int level)
+{
+    const float half = (float)(1 << level) * v->texel;
+    const covariance2 *p = &v->precision;
+    return 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy);
+}
+
+/* Leaves out the rivals of a disc that holds the tile. False: one of them owns all of it. */
+static int narrow_rivals(const example_view *v, node *n, float x, float y, float side)
+{
+    if (!n->rivals)
+        return 1;
+    float at[2];
+    to_frame(v, x, y, at);
+    return rivals_within(v->others, v->owner, &n->rivals, at[0], at[1], side * v->self->as.radius);
+}
+
 /* Takes a tile, skips it, or says that its quarters are to be looked at. */
 static int is_divided(const example_view *v, node *n, gathered *sum)
 {
+    const int dark = !v->wants_value || is_dark(v, n->level, n->x, n->y);
+    if (dark && !v->wants_mass)
+        return 0;
     const float side = (float)(2 << n->level) * v->texel, half = 0.5F * side;
     const float x = ((float)n->x + 0.5F) * side, y = ((float)n->y + 0.5F) * side;
     const float dx = v->mean[0] - x, dy = v->mean[1] - y;
@@ -88,30 +117,25 @@ static int is_divided(const example_view *v, node *n, gathered *sum)
     const float exponent = 0.5F * (dx * gx + dy * gy);
     /* The exponent is convex: it lies above its tangent. */
     const float change = half * (fabsf(gx) + fabsf(gy));
-    if (exponent - change > LAST_EXPONENT)
+    if (exponent - change > LAST_EXPONENT || !narrow_rivals(v, n, x, y, side))
         return 0;
-    const int dark = !v->wants_value || is_dark(v, n);
-    if (dark && !v->wants_mass)
-        return 0;
-    if (n->rivals) {
-        float at[2];
-        to_frame(v, x, y, at);
-        if (!rivals_within(v->others, v->owner, &n->rivals, at[0], at[1], side * v->self->as.radius))
-            return 0;
-    }
     if (n->level == 0) {
         example_take_quad(v, n->x, n->y, owned_quarters(v, n, x, y, side), dark, sum);
         return 0;
     }
-    const float curve = 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy);
     const float nearest = exponent > change ? exponent - change : 0.0F;
     const float rarity = 1.0F + nearest + 0.5F * nearest * nearest; /* below exp(nearest) */
-    if (change + curve > MOST_VARIATION * rarity || (n->rivals && v->norm * side * side > MOST_SHARED_MASS * rarity))
-        return 1;
+    const int divided = change + curve_of(v, n->level) > MOST_VARIATION * rarity ||
+                        (n->rivals && v->norm * side * side > MOST_SHARED_MASS * rarity);
+    /* A large tile's map knows better than the range of its slopes whether there is anything to look for. */
+    const float density = !dark && (!divided || n->level >= LEAST_TRIED_LEVEL) ? tile_density(v, n) : 0.0F;
+    if (divided)
+        return density > 0.0F || v->wants_mass || n->level < LEAST_TRIED_LEVEL;
+    if (!(density > 0.0F) && !v->wants_mass)
+        return 0;
     const float mass = v->norm * exp_negative(-exponent) * side * side * share_of(owned_quarters(v, n, x, y, side));
     sum->mass += mass;
-    if (!dark)
-        sum->value += mass * v->slope_scale * tile_density(v, n);
+    sum->value += mass * v->slope_scale * density;
     return 0;
 }
 
@@ -131,7 +155,7 @@ static int tiles_within(const example_view *v, int level, int axis, int *first, 
 /* Begins with the smallest tiles of which two a side hold all that the footprint reaches. */
 static int first_nodes(const example_view *v, rivals all, node *stack)
 {
-    const float reach = 2.0F * fmaxf(v->half[0], v->half[1]);
+    const float reach = 2.0F * (v->half[0] > v->half[1] ? v->half[0] : v->half[1]);
     int level = 0;
     while (level + 1 < (int)v->e->levels && (float)(2 << level) * v->texel < reach)
         level++;
@@ -144,14 +168,42 @@ static int first_nodes(const example_view *v, rivals all, node *stack)
     return height;
 }
 
+static void take_quad(const example_view *v, uint32_t x, uint32_t y, gathered *sum)
+{
+    const int dark = is_dark(v, 0, x, y);
+    if (!dark || v->wants_mass)
+        example_take_quad(v, x, y, 15U, dark, sum);
+}
+
+/* All quads within reach, one by one, where no larger tile at the centre could be taken whole and they are few. */
+static int take_few(const example_view *v, gathered *sum)
+{
+    int x0, x1, y0, y1;
+    if (!tiles_within(v, 0, 0, &x0, &x1) || !tiles_within(v, 0, 1, &y0, &y1))
+        return 1;
+    if (!(curve_of(v, EXAMPLE_LEAST_MAP_LEVEL) > MOST_VARIATION) || (x1 - x0 + 1) * (y1 - y0 + 1) > FEW_QUADS)
+        return 0;
+    for (int y = y0; y <= y1; y++)
+        for (int x = x0; x <= x1; x++)
+            take_quad(v, (uint32_t)x, (uint32_t)y, sum);
+    return 1;
+}
+
 static void descend(const example_view *v, rivals all, gathered *sum)
 {
+    if (!all && v->wants_value && take_few(v, sum))
+        return;
     node stack[STACK];
     int height = first_nodes(v, all, stack);
     while (height > 0) {
         node n = stack[--height];
         if (!is_divided(v, &n, sum))
             continue;
+        if (n.level == 1 && !n.rivals && v->wants_value) {
+            for (uint32_t k = 0; k < 4; k++)
+                take_quad(v, 2U * n.x + (k & 1U), 2U * n.y + (k >> 1), sum);
+            continue;
+        }
         for (int k = 0; k < 4; k++)
             stack[height++] =
                 (node){ (uint16_t)(2 * n.x + (k & 1)), (uint16_t)(2 * n.y + (k >> 1)), n.level - 1, n.rivals };
@@ -199,7 +251,7 @@ static example_view view_of(const question *q, const instance *self)
     /* The light's round spot becomes an ellipse; a round one of the same mean size stands for it. */
     const float stretch = 0.5F * (l.xx * l.xx + l.xy * l.xy + l.yx * l.yx + l.yy * l.yy);
     v.slope_variance = e->slope_variance + stretch * q->light_variance;
-    v.slope_reach = SLOPE_REACH * sqrtf(v.slope_variance);
+    v.blend = slope_maps_blend(&e->tiles, v.slope_variance);
     return v;
 }
 
@@ -269,7 +321,9 @@ static int gather_scattered(const question *q, int is_narrow, int sees_ripple, g
     for (int k = -1; k < list.count; k++) {
         seen[count] = rivals_of(&list, k);
         shown[count] = k;
-        count += rivals_within(&list, k < 0 ? NULL : &list.at[k], &seen[count], r->at[0], r->at[1], r->radius);
+        const instance *self = k < 0 ? NULL : &list.at[k];
+        count += rivals_within(&list, self, &seen[count], r->at[0], r->at[1], r->radius) &&
+                 (!self || rivals_within(&list, self, &seen[count], self->x, self->y, self->as.radius));
     }
     const int wants_mass = count > 1 ? is_narrow : sees_ripple;
     const float flat = ground_density(q);

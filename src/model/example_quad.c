@@ -9,8 +9,9 @@ static float sum_of(vfloat x)
     return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/* exp(-exponent - d^T C^-1 d / 2) / (2 pi sqrt(det C)) of the slope, C = J posterior J^T + the roughness. */
-static vfloat slope_density(const example_view *v, const example_quad *q, vfloat gx, vfloat gy, vfloat exponent)
+/* Sum of exp(-exponent - d^T C^-1 d / 2) / (2 pi sqrt(det C)) of the slope, C = J posterior J^T + the roughness. */
+static float slope_density(const example_view *v, const example_quad *q, vfloat gx, vfloat gy, vfloat exponent,
+                           vmask near)
 {
     const vfloat a = load_f(q->jacobian[0]), b = load_f(q->jacobian[1]);
     const vfloat c = load_f(q->jacobian[2]), d = load_f(q->jacobian[3]);
@@ -24,7 +25,10 @@ static vfloat slope_density(const example_view *v, const example_quad *q, vfloat
     const vfloat yy = cx * c + cy * d + v->slope_variance;
     const vfloat det = xx * yy - xy * xy;
     const vfloat e = exponent + 0.5F * (yy * x * x - 2.0F * xy * x * y + xx * y * y) / det;
-    return exp_negative(-e) / (2.0F * MATH_PI * sqrt_f(det));
+    const vmask seen = near & less(e, splat(2.0F * LAST_EXPONENT));
+    if (!any(seen))
+        return 0.0F;
+    return sum_of(choose(seen, exp_negative(-e) / (2.0F * MATH_PI * sqrt_f(det)), splat(0.0F)));
 }
 
 void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t owned, int is_dark, gathered *sum)
@@ -40,12 +44,11 @@ void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t o
     const vmask near = less(exponent, splat(LAST_EXPONENT)) & ((bits & owned) != 0U);
     if (!any(near))
         return;
-    const vfloat none = splat(0.0F);
     const float area = v->norm * t * t;
     if (v->wants_mass)
-        sum->mass += area * sum_of(choose(near, exp_negative(-exponent), none));
+        sum->mass += area * sum_of(choose(near, exp_negative(-exponent), splat(0.0F)));
     if (is_dark)
         return;
     const example_quad *q = &v->e->quads[example_tile(v->e, 0, x, y)];
-    sum->value += area * v->slope_scale * sum_of(choose(near, slope_density(v, q, gx, gy, exponent), none));
+    sum->value += area * v->slope_scale * slope_density(v, q, gx, gy, exponent, near);
 }

@@ -32,7 +32,9 @@ rivals rivals_of(const neighbours *list, int self);
 /* Drops the rivals that cannot own a part of the disc around (x, y). False: one of them owns all of it. self: NULL for
  * the ground. */
 int rivals_within(const neighbours *list, const instance *self, rivals *r, float x, float y, float radius);
-int owns_point(const neighbours *list, const instance *self, rivals r, float x, float y);
+/* Which of the four points at -+ right -+ up are self's, a bit each: (-, -), (+, -), (-, +), (+, +). */
+uint32_t quarters_owned(const neighbours *list, const instance *self, rivals r, const float at[2], const float right[2],
+                        const float up[2]);
 
 /* One example under the footprint, in its own coordinates. */
 typedef struct example_view {
@@ -50,7 +52,7 @@ typedef struct example_view {
     covariance2 posterior;    /* of the place within a seed, given the footprint */
     float slope[2];           /* what is asked for */
     float slope_variance;     /* of the surface and the light */
-    float slope_reach;        /* SLOPE_REACH deviations of it */
+    slope_blend blend;        /* of the maps, for that variance */
     float slope_scale;        /* density of slopes here to that on the lattice */
 } example_view;
 
