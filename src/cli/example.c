@@ -12,7 +12,7 @@
 
 typedef struct example_values {
     const char *output;
-    int size; /* index of a choice */
+    int size, bits; /* indices of choices */
     double slope, feature, aspect;
     int64_t count, seed;
     bool json;
@@ -29,6 +29,12 @@ static const char *size_choice(int index)
     return sizes[index];
 }
 
+static const char *bits_choice(int index)
+{
+    static const char *const bits[] = { "16", "8", NULL };
+    return bits[index];
+}
+
 static const argument_rule rules[] = {
     { .name = "output",
       .letter = 'o',
@@ -41,6 +47,11 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_CHOICE,
       .choice = size_choice,
       .target = offsetof(example_values, size) },
+    { .name = "bits",
+      .help = "of a channel: steps of the slope are 1 / 128 with 8, a quarter of the file",
+      .kind = ARGUMENT_CHOICE,
+      .choice = bits_choice,
+      .target = offsetof(example_values, bits) },
     { .name = "slope",
       .value = "S",
       .help = "root mean square slope",
@@ -172,7 +183,7 @@ static int write_map(const example_values *v, int kind)
              : GLINT_ERROR_MEMORY;
     if (done && result != GLINT_OK)
         done = report_error(&m.report, "%s: %s", v->output, glint_result_text(result));
-    done = done && example_map_write_png(v->output, normals, size, &m.report);
+    done = done && example_map_write_png(v->output, normals, size, v->bits ? 8 : 16, &m.report);
     const fallback f = done ? fallback_of(normals, size) : (fallback){ 0 };
     free(normals);
     if (!done)

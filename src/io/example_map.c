@@ -103,7 +103,7 @@ bool example_map_open(const scene *s, const scene_material *m, glint_material_op
         return true;
     const scene_image *picture = &s->images[g->example_texture.image];
     mipmap texels = { 0 };
-    bool done = image_texels(picture, &texels, r) && check_size(&texels, picture->name, r);
+    bool done = mipmap_decode(picture, &texels, r) && check_size(&texels, picture->name, r);
     const size_t count = done ? (size_t)texels.levels[0].width * (size_t)texels.levels[0].width : 0;
     if (done && !(*normals = malloc(count * 3 * sizeof **normals)))
         done = report_error(r, "%s: does not fit into memory", picture->name);
@@ -123,7 +123,7 @@ static uint16_t encoded(float x)
     return (uint16_t)lrintf((x + 1.0F) * 32767.5F);
 }
 
-bool example_map_write_png(const char *path, const float *normals, int size, report *r)
+bool example_map_write_png(const char *path, const float *normals, int size, int bits, report *r)
 {
     const size_t count = (size_t)size * (size_t)size;
     uint16_t *rgb = malloc(count * 3 * sizeof *rgb);
@@ -134,7 +134,7 @@ bool example_map_write_png(const char *path, const float *normals, int size, rep
         rgb[3 * i + 1] = encoded(-normals[3 * i + 1]);
         rgb[3 * i + 2] = encoded(normals[3 * i + 2]);
     }
-    const bool done = image_write_data_png(path, size, size, rgb, r);
+    const bool done = image_write_data_png(path, size, size, bits, rgb, r);
     free(rgb);
     return done;
 }

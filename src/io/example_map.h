@@ -14,9 +14,9 @@ extern "C" {
  * that the model does not take, is an error that names the image. */
 bool example_map_open(const scene *s, const scene_material *m, glint_material_options *o, float **normals, report *r);
 
-/* The texture that example_map_open takes for these size * size normals (x, y, z): PNG of 16 bits, normal (x, -y, z)
- * as colour (1 + n) / 2, row 0 on top. */
-bool example_map_write_png(const char *path, const float *normals, int size, report *r);
+/* The texture that example_map_open takes for these size * size normals (x, y, z): PNG of 8 or 16 bits, normal
+ * (x, -y, z) as colour (1 + n) / 2, row 0 on top. */
+bool example_map_write_png(const char *path, const float *normals, int size, int bits, report *r);
 
 #ifdef __cplusplus
 }

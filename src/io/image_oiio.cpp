@@ -232,7 +232,7 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
 
 bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
 {
-    if (!image_texels(&picture, out, r))
+    if (!mipmap_decode(&picture, out, r))
         return false;
     if (srgb && !mipmap_decode_srgb(out))
         return report_error(r, "%s: does not fit into memory", picture.name);
@@ -307,6 +307,16 @@ struct textures {
     std::vector<texture_source> sources;
 };
 
+bool mipmap_decode(const scene_image *picture, mipmap *out, report *r)
+{
+    image_bytes bytes;
+    if (!image_bytes_load(picture, &bytes, r))
+        return false;
+    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
+    image_bytes_free(&bytes);
+    return decoded;
+}
+
 bool image_read(const char *path, image *out, report *r)
 {
     *out = image{};
@@ -346,22 +356,12 @@ bool image_write_png(const char *path, const image *i, float exposure_ev, report
     });
 }
 
-bool image_write_data_png(const char *path, int width, int height, const uint16_t *rgb, report *r)
+bool image_write_data_png(const char *path, int width, int height, int bits, const uint16_t *rgb, report *r)
 {
     return guarded(path, r, [&] {
-        const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT16);
+        const OIIO::ImageSpec spec(width, height, 3, bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
         return write_picture("png", spec, OIIO::TypeDesc::UINT16, rgb, path, r);
     });
-}
-
-bool image_texels(const scene_image *picture, mipmap *out, report *r)
-{
-    image_bytes bytes;
-    if (!image_bytes_load(picture, &bytes, r))
-        return false;
-    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
-    image_bytes_free(&bytes);
-    return decoded;
 }
 
 bool textures_open(const scene *s, textures **out, report *r)

@@ -35,16 +35,15 @@ typedef struct mipmap {
 /* Room for all levels; sizes beyond the limits are errors that name the image. The coding is MIPMAP_UNORM16. */
 bool mipmap_allocate(mipmap *out, int width, int height, int channel_count, const char *name, report *r);
 void mipmap_free(mipmap *m);
+/* Allocates and fills level 0 with a picture as its file stores it (PNG, JPEG or WebP); in image_oiio.cpp. On failure
+ * *out may hold memory, too. */
+bool mipmap_decode(const scene_image *picture, mipmap *out, report *r);
 
 /* Level 0 has grey and alpha in the first two of four channels: makes them RGBA. */
 void mipmap_spread_grey(mipmap *m);
 
 /* Turns level 0 from sRGB in MIPMAP_UNORM16 into linear MIPMAP_HALF; alpha is linear in both. False without memory. */
 bool mipmap_decode_srgb(mipmap *m);
-
-/* Decodes a picture into level 0 of MIPMAP_UNORM16, as the file stores it; what cannot be decoded is an error that
- * names it. In image_oiio.cpp. mipmap_free in any case. */
-bool image_texels(const scene_image *picture, mipmap *out, report *r);
 
 /* Computes all other levels from level 0: every texel is the exact mean of the area that it covers. */
 void mipmap_build(mipmap *m);

@@ -7,6 +7,7 @@
 #include "model/example_density.h"
 
 #include "light/cap.h"
+#include "model/area_points.h"
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
@@ -114,6 +115,10 @@ static void combine(const model_query *q, lobe_value *lobe, float masking, float
 
 static void example_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        area_points_eval(q, value);
+        return;
+    }
     const example *e = q->material->baked;
     const stretch r = stretch_of(q);
     lobe_value lobe;
@@ -136,7 +141,8 @@ static void example_eval(const model_query *q, glint_value *value)
     const float overall = overall_density(e, slope, light);
     const float share = f.share * q->surface->discreteness;
     float mixed = overall;
-    if (share > 0.0F) {
+    /* A slope that the whole surface does not have is under no footprint. */
+    if (share > 0.0F && overall > 0.0F) {
         const matrix2 l = e->lattice.from_lattice;
         const float on_lattice[2] = { l.xx * slope[0] + l.yx * slope[1], l.xy * slope[0] + l.yy * slope[1] };
         const float widened = light * 0.5F * (l.xx * l.xx + l.xy * l.xy + l.yx * l.yx + l.yy * l.yy);

@@ -6,6 +6,9 @@
 #include "example_bench.h"
 #include "seed_sum.h"
 
+/* Bytes that a material's example keeps. */
+size_t example_bytes(const example *e);
+
 /* The surface around one cell of a bench's lattice, seeds and all; free its seeds. */
 seed_surface seed_race_export(const bench *b);
 

@@ -2,17 +2,6 @@
  * the sum of the seeds under the same footprints. Times are processor time of one run and are printed. */
 #include "seed_race.h"
 
-static size_t memory_of(const example *e)
-{
-    const size_t tiles = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, e->levels);
-    const size_t ranges = example_tiles_before(e, 0, e->levels);
-    const size_t maps = tiles * e->tiles.length + SLOPE_MOST_LENGTH;
-    const slope_map *last = &e->overall.maps[e->overall.length - 1];
-    return sizeof(*e) + (size_t)e->size * e->size * sizeof(example_texel) + ranges * sizeof(tile_slopes) +
-           maps * sizeof(slope_map) + (SLOPE_MAP_SIDE + 1) * sizeof(float) + last->first +
-           (size_t)last->columns * last->rows;
-}
-
 static void maps_need_less_memory_and_time_than_the_papers(void **state)
 {
     (void)state;
@@ -42,7 +31,7 @@ static void maps_need_less_memory_and_time_than_the_papers(void **state)
         bench b;
         bench_make(&b, rows[i].kind, &o);
         const double seconds = bench_seconds() - begin;
-        const double mib = (double)memory_of(b.material.baked) / 1048576.0;
+        const double mib = (double)example_bytes(b.material.baked) / 1048576.0;
         printf("%-18s %3u^2  %6.2f MiB (paper %5.2f, %4.0f times)  baked in %4.0f ms (paper %4.1f s)\n", rows[i].name,
                rows[i].size, mib, rows[i].paper_mib, rows[i].paper_mib / mib, 1e3 * seconds, rows[i].paper_s);
         assert_true(mib < rows[i].paper_mib);
