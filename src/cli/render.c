@@ -15,6 +15,13 @@
 
 #define AT(member) offsetof(render_values, member)
 
+/* In the order of preview_facets. */
+const char *render_facets_name(int index)
+{
+    static const char *const names[] = { "own", "cycles", "povray", NULL };
+    return names[index];
+}
+
 static const argument_rule rules[] = {
     { .name = "output",
       .letter = 'o',
@@ -49,6 +56,11 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = AT(model) },
+    { .name = "facets",
+      .help = "own: of equal area; or those that another renderer draws",
+      .kind = ARGUMENT_CHOICE,
+      .choice = render_facets_name,
+      .target = AT(facets) },
     { .name = "material",
       .value = "NAME=PRESET",
       .help = "replace a material of the file, or all (*); repeatable",
@@ -201,6 +213,7 @@ static bool render_scene(const scene *s, render_record *record, const atomic_boo
     options.threads = (int)v->threads;
     options.seed = (uint32_t)v->seed;
     options.model = v->model + PREVIEW_MODEL_AUTO;
+    options.facets = (preview_facets)v->facets;
     options.aov = v->aov;
     options.progress = progress_update;
     options.user = &bar;

@@ -48,6 +48,15 @@ static void warn_of_missing_texcoords(const scene *s, report *r)
     }
 }
 
+/* Those of another renderer: its hash of the cells of a flat grid. */
+static void choose_facets(preview_facets facets, glint_material_options *o)
+{
+    if (facets == PREVIEW_FACETS_OWN)
+        return;
+    o->weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
+    o->facet_hash = facets == PREVIEW_FACETS_POVRAY ? GLINT_FACET_HASH_POVRAY : GLINT_FACET_HASH_CYCLES;
+}
+
 static bool make_layer(const scene *s, int index, const char *layer, const glint_material_options *options,
                        glint_material **out, bool *counts, report *r)
 {
@@ -61,21 +70,24 @@ static bool make_layer(const scene *s, int index, const char *layer, const glint
     return true;
 }
 
-static bool make_layers(const scene *s, int index, glint_model model, material_layers *out, report *r)
+static bool make_layers(const scene *s, int index, glint_model model, preview_facets facets, material_layers *out,
+                        report *r)
 {
     const scene_material *const m = &s->materials[index];
-    const glint_material_options base = scene_base_options(m, model);
+    glint_material_options base = scene_base_options(m, model);
+    choose_facets(facets, &base);
     if (!make_layer(s, index, "base", &base, &out->base, &out->base_counts, r))
         return false;
     if (!(m->clearcoat > 0.0F))
         return true;
-    const glint_material_options coat = scene_coat_options(m, model);
+    glint_material_options coat = scene_coat_options(m, model);
+    choose_facets(facets, &coat);
     return make_layer(s, index, "clear coat", &coat, &out->coat, &out->coat_counts, r);
 }
 
-bool materials_make(const scene *s, int model, materials *out, report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r)
 {
-    *out = (materials){ .scene = s };
+    *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
     out->layers = calloc(count, sizeof *out->layers);
     if (out->layers == NULL)
@@ -84,7 +96,7 @@ bool materials_make(const scene *s, int model, materials *out, report *r)
     const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
         warn_of_unrendered(s, i, wanted, r);
-        if (!make_layers(s, i, wanted, &out->layers[i], r)) {
+        if (!make_layers(s, i, wanted, facets, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

@@ -148,13 +148,17 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
         out->emission[i] *= below;
 }
 
-static void place_glints(const hit *h, const hit_step *step, const scene_glint *g, float choice, shade_point *out)
+static void place_glints(const shader *s, const hit *h, const hit_step *step, const scene_glint *g, float choice,
+                         shade_point *out)
 {
     for (int i = 0; i < out->layer_count; ++i) {
         if (!out->layers[i].counts)
             continue;
         float density_scale;
         out->footprint = place_footprint(g, h, step, choice, &density_scale);
+        /* Other renderers know no objects' seeds: their facets hang on the texture coordinates alone. */
+        if (s->materials->facets != PREVIEW_FACETS_OWN)
+            out->footprint.seed = 0U;
         out->layers[i].surface.facets_per_m2 *= density_scale;
     }
 }
@@ -194,7 +198,7 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
     base->weight = 1.0F;
     set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
     add_coat(&l, m, &t, handles, wo, out);
-    place_glints(h, step, &m->glint, choice, out);
+    place_glints(s, h, step, &m->glint, choice, out);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
