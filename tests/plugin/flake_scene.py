@@ -11,8 +11,9 @@ import sys
 
 ROUGHNESS = 0.5477225575  # alpha .3
 FACET_ROUGHNESS = 0.1414213562  # alpha .02
-# The larger of the two: 2 x 2 flakes a pixel at 128 pixels for half a metre.
-DENSITY = 512.0**2
+# Flakes per square of the UV map. The picture shows half a metre: at 96 pixels some seven a pixel on the plane, and one in
+# the middle of the sphere but far more at its edge.
+CELLS = {"plane": 512.0, "sphere": 256.0}
 SUN_RAD = math.radians(2.0)
 
 
@@ -57,13 +58,13 @@ def node_looking(theta, distance, **content):
     }
 
 
-def light_of(kind, intensity):
+def light_of(kind, intensity, sun_rad):
     if kind == "sun":
-        return {"type": "directional", "intensity": intensity, "extras": {"angularDiameter": SUN_RAD}}
+        return {"type": "directional", "intensity": intensity, "extras": {"angularDiameter": sun_rad}}
     raise ValueError(f"light '{kind}': expected sun")
 
 
-def scene(shape, distribution, light="sun"):
+def scene(shape, distribution, light="sun", sun_rad=SUN_RAD):
     positions, normals, uv, indices = {"plane": plane, "sphere": sphere}[shape]()
     count = len(positions)
     low = [min(p[i] for p in positions) for i in range(3)]
@@ -77,7 +78,7 @@ def scene(shape, distribution, light="sun"):
     document = {
         "asset": {"version": "2.0"},
         "extensionsUsed": ["KHR_lights_punctual", "GLINT_materials_glint"],
-        "extensions": {"KHR_lights_punctual": {"lights": [light_of(light, 1.0)]}},
+        "extensions": {"KHR_lights_punctual": {"lights": [light_of(light, 1.0, sun_rad)]}},
         "scene": 0,
         "scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [
@@ -90,7 +91,7 @@ def scene(shape, distribution, light="sun"):
             "name": "flakes",
             "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": ROUGHNESS},
             "extensions": {"GLINT_materials_glint": {
-                "glintFactor": 1, "glintDistribution": distribution, "glintDensity": DENSITY,
+                "glintFactor": 1, "glintDistribution": distribution, "glintDensity": CELLS[shape] ** 2,
                 "glintFacetRoughness": FACET_ROUGHNESS, "glintSeed": 5,
             }},
         }],
