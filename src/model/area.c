@@ -159,13 +159,14 @@ static void find_lit(const model_query *q, const facet_integral *s, area_value *
     const vec3d mean = facets > 0.0 ? (vec3d){ s->x / s->facets, s->y / s->facets, s->projected / s->facets }
                                     : (vec3d){ 0.0, 0.0, 1.0 };
     value->h = vec3d_narrow(mean);
-    const double lobe = (double)ndf_facet_solid_angle(s->distribution.kind, o->facet_alpha) * mean.z;
-    const double wider = lobe > 0.0 && cap > 0.0 ? 1.0 + lobe / cap : 1.0;
+    const double solid_angle = fmin(cap / fmax(mean.z, 1e-6), 2.0 * REAL_PI);
+    const double lit = (double)ndf_lit_solid_angle(s->distribution.kind, (float)solid_angle, o->facet_alpha);
+    const double wider = solid_angle > 0.0 ? lit / solid_angle : 1.0;
     double p = fabs(s->projected);
     if (o->weighting == GLINT_WEIGHTING_EQUAL_AREA)
         p = facets / (double)(q->total_area > 0.0F ? q->total_area : ndf_total_area(&s->distribution));
     value->lit_probability = (float)fmin(p * wider, 1.0);
-    value->cap = (float)(cap + lobe);
+    value->cap = (float)(lit * mean.z);
 }
 
 /* ---- the base ---- */
