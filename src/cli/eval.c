@@ -13,8 +13,17 @@
 typedef struct eval_values {
     const char *material;
     int model; /* see arguments_model_choice */
+    int layer; /* see layer_choice */
     bool json;
 } eval_values;
+
+enum { LAYER_ALL, LAYER_BASE, LAYER_CLEARCOAT };
+
+static const char *layer_choice(int index)
+{
+    static const char *const names[] = { [LAYER_ALL] = "all", [LAYER_BASE] = "base", [LAYER_CLEARCOAT] = "clearcoat" };
+    return index <= LAYER_CLEARCOAT ? names[index] : NULL;
+}
 
 static const argument_rule rules[] = {
     { .name = "material",
@@ -23,10 +32,15 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_TEXT,
       .target = offsetof(eval_values, material) },
     { .name = "model",
-      .help = "auto is counting where the material has glints",
+      .help = "of each layer; auto is counting where it has glints",
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = offsetof(eval_values, model) },
+    { .name = "layer",
+      .help = "the whole material, or one layer by itself (all)",
+      .kind = ARGUMENT_CHOICE,
+      .choice = layer_choice,
+      .target = offsetof(eval_values, layer) },
     { .name = "json",
       .help = "print an array of objects",
       .kind = ARGUMENT_FLAG,
@@ -44,6 +58,36 @@ static const argument_syntax syntax = {
     .rule_count = sizeof rules / sizeof rules[0],
 };
 
+static glint_material *create(const eval_values *values, const glint_material_options *options, report *r)
+{
+    glint_material *material = NULL;
+    char message[256] = "";
+    if (glint_material_create(options, &material, message, sizeof message) != GLINT_OK)
+        report_error(r, "%s: %s", values->material, message);
+    return material;
+}
+
+/* The layer that is asked for, or both, one over the other. */
+static glint_material *create_layers(const eval_values *values, const scene_material *m, report *r)
+{
+    const glint_model model = values->model == 0 ? GLINT_MODEL_COUNTING : (glint_model)(values->model - 1);
+    const bool has_coat = m->clearcoat > 0.0F;
+    const glint_material_options base = scene_base_options(m, model), coat = scene_coat_options(m, model);
+    if (values->layer == LAYER_CLEARCOAT && !has_coat) {
+        report_error(r, "%s: --layer clearcoat: found no clear coat, expected a clearcoatFactor above 0",
+                     values->material);
+        return NULL;
+    }
+    if (values->layer != LAYER_ALL || !has_coat)
+        return create(values, values->layer == LAYER_CLEARCOAT ? &coat : &base, r);
+    glint_material_options both = GLINT_MATERIAL_OPTIONS_INIT;
+    both.model = GLINT_MODEL_LAYERED;
+    both.layers.base = &base;
+    both.layers.coat = &coat;
+    both.layers.coat_weight = m->clearcoat;
+    return create(values, &both, r);
+}
+
 static glint_material *open_material(const eval_values *values, report *r)
 {
     scene s = { 0 };
@@ -52,18 +96,7 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    const bool automatic = values->model == 0;
-    glint_material_options options =
-        scene_base_options(&m, automatic ? GLINT_MODEL_COUNTING : (glint_model)(values->model - 1));
-    const scene_texels texels = scene_texels_of(&m);
-    options.surface = scene_base_surface(&m, &texels);
-    if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)
-        report_warning(r, "%s: the glints are in the clear coat, and eval answers for the base layer",
-                       values->material);
-    glint_material *material = NULL;
-    char message[256] = "";
-    if (glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
-        report_error(r, "%s: %s", values->material, message);
+    glint_material *material = create_layers(values, &m, r);
     free(m.name);
     scene_free(&s);
     return material;
