@@ -36,7 +36,7 @@ static float clamp01(float x)
 /* What is left for the base of light that enters at one angle and leaves at the other: (1 - F_o)(1 - F_i) / (1 - F_0).
  * glTF's own 1 - F(h.wo) is the same head-on but gives more light than came in at grazing angles; this is reciprocal
  * and never above one. */
-static float base_albedo(const model_query *q, int channel, float cos_i)
+float lobe_base_albedo(const model_query *q, int channel, float cos_i)
 {
     if (!(q->surface->diffuse[channel] > 0.0F))
         return 0.0F;
@@ -67,7 +67,7 @@ void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *val
         value->fresnel[c] = lobe_facet_reflectance(q, c, value->h_dot_wi);
         value->reflectance[c] = coverage * value->fresnel[c] * masking;
         value->specular[c] = value->reflectance[c] * value->density;
-        value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
+        value->diffuse[c] = lobe_base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
 }
 
@@ -102,7 +102,7 @@ float lobe_specular_chance(const model_query *q)
     float specular = 0.0F, diffuse = 0.0F;
     for (int c = 0; c < 3; c++) {
         specular += q->material->options.coverage * lobe_facet_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
-        diffuse += base_albedo(q, c, 1.0F);
+        diffuse += lobe_base_albedo(q, c, 1.0F);
     }
     if (!(diffuse > 0.0F))
         return 1.0F;
