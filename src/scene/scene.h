@@ -57,6 +57,8 @@ typedef struct scene_glint {
     float color[3];
     scene_texture color_texture;
     float color_variation;
+    uint32_t color_count;              /* of colors */
+    float colors[GLINT_MAX_COLORS][3]; /* what facets are tinted with, relative to their mean */
     float elongation;
     float coverage;
     float density_variation;
