@@ -11,7 +11,6 @@
  */
 #include "math/uniform.h"
 #include "model/layered_coat.h"
-#include "model/layered_light.h"
 #include "model/lobe.h"
 
 enum { CHUNK = 64 }; /* queries handed to the layers at a time */
@@ -25,12 +24,11 @@ typedef struct layered {
 /* Both layers at one point. */
 typedef struct point {
     model_query base, coat;
-    coat_frame frame;                 /* in the frame of the base */
-    glint_area_light light;           /* what coat.area_light points to: the light in the frame of the coat */
-    float weight, slant;              /* of the coat */
-    float out[3], in[3], straight[3]; /* t(wo), t(wi), t(n) */
-    int base_seen, coat_seen;         /* from wo */
-    int base_lit, coat_lit;           /* from wi too */
+    vec3 x, y, z;              /* frame of the coat, in that of the base */
+    float weight, slant;       /* of the coat */
+    float out[3], straight[3]; /* t(wo), t(n) */
+    int base_seen, coat_seen;  /* from wo */
+    int base_lit, coat_lit;    /* from wi too */
 } point;
 
 /* 1 - w (1 - T): what is left of the base. */
@@ -39,9 +37,11 @@ static void find_kept(const point *p, float kept[3])
     kept[0] = kept[1] = kept[2] = 1.0F;
     if (!(p->weight > 0.0F))
         return;
+    float in[3];
+    coat_transmit(&p->coat, p->slant, p->coat.wi.z, in);
     for (int c = 0; c < 3; c++) {
-        const float least = p->in[c] < p->out[c] ? p->in[c] : p->out[c];
-        const float both = p->straight[c] > 0.0F ? p->in[c] * p->out[c] / p->straight[c] : 0.0F;
+        const float least = in[c] < p->out[c] ? in[c] : p->out[c];
+        const float both = p->straight[c] > 0.0F ? in[c] * p->out[c] / p->straight[c] : 0.0F;
         kept[c] = 1.0F - p->weight * (1.0F - (both < least ? both : least));
     }
 }
@@ -49,21 +49,24 @@ static void find_kept(const point *p, float kept[3])
 /* ---- a point and its layers ---- */
 
 /* A tangent that lies along the normal gives way to any other. */
-static coat_frame frame_of(const glint_coat *coat)
+static void set_frame(point *p, const glint_coat *coat)
 {
-    coat_frame f;
-    f.z = vec3_normalize(vec3_from(coat->normal));
+    p->z = vec3_normalize(vec3_from(coat->normal));
     const vec3 along = vec3_from(coat->tangent);
-    f.x = vec3_normalize(vec3_add(along, vec3_scale(f.z, -vec3_dot(along, f.z))));
-    if (!(vec3_dot(f.x, f.x) > 0.5F)) {
-        const vec3 other = fabsf(f.z.x) < 0.7F ? (vec3){ 1.0F, 0.0F, 0.0F } : (vec3){ 0.0F, 1.0F, 0.0F };
-        f.x = vec3_normalize(vec3_add(other, vec3_scale(f.z, -vec3_dot(other, f.z))));
+    p->x = vec3_normalize(vec3_add(along, vec3_scale(p->z, -vec3_dot(along, p->z))));
+    if (!(vec3_dot(p->x, p->x) > 0.5F)) {
+        const vec3 other = fabsf(p->z.x) < 0.7F ? (vec3){ 1.0F, 0.0F, 0.0F } : (vec3){ 0.0F, 1.0F, 0.0F };
+        p->x = vec3_normalize(vec3_add(other, vec3_scale(p->z, -vec3_dot(other, p->z))));
     }
-    f.y = vec3_cross(f.z, f.x);
-    return f;
+    p->y = vec3_cross(p->z, p->x);
 }
 
-/* All but the light. */
+static vec3 to_coat(const point *p, vec3 v)
+{
+    return (vec3){ vec3_dot(v, p->x), vec3_dot(v, p->y), vec3_dot(v, p->z) };
+}
+
+/* All but wi. */
 static void find_point(const model_query *q, point *p)
 {
     const struct glint_material *material = q->material;
@@ -76,8 +79,8 @@ static void find_point(const model_query *q, point *p)
     p->coat.total_area = coat == &l->own ? material->coat->total_area : 0.0F;
     if (coat->footprint)
         p->coat.footprint = coat->footprint;
-    p->frame = frame_of(coat);
-    p->coat.wo = coat_frame_in(&p->frame, q->wo);
+    set_frame(p, coat);
+    p->coat.wo = to_coat(p, q->wo);
     p->weight = coat->weight;
     p->base_seen = q->wo.z > 0.0F;
     p->coat_seen = p->coat.wo.z > 0.0F && p->weight > 0.0F;
@@ -91,46 +94,9 @@ static void find_point(const model_query *q, point *p)
 static void light_up(point *p, vec3 wi)
 {
     p->base.wi = wi;
-    p->coat.wi = coat_frame_in(&p->frame, wi);
+    p->coat.wi = to_coat(p, wi);
     p->base_lit = p->base_seen && wi.z > 0.0F;
     p->coat_lit = p->coat_seen && p->coat.wi.z > 0.0F;
-    if (p->weight > 0.0F)
-        coat_transmit(&p->coat, p->slant, p->coat.wi.z, p->in);
-}
-
-/* Each layer integrates over the part of the light that is above its own horizon. What the coat lets through hardly
- * varies over a light: t(wi) is its mean over a few points, by what each would give a diffuse base. */
-static void light_up_area(point *p, const glint_area_light *light)
-{
-    const int turned = coat_light_turn(&p->frame, light, &p->light);
-    p->coat.area_light = &p->light;
-    p->base_lit = p->base_seen;
-    p->coat_lit = p->coat_seen && turned;
-    if (!(p->weight > 0.0F))
-        return;
-    float cosine[COAT_LIGHT_POINTS], sum = 0.0F, total[3] = { 0.0F, 0.0F, 0.0F };
-    const int count = turned ? coat_light_cosines(&p->light, cosine) : 0;
-    for (int i = 0; i < count; i++) {
-        if (!(cosine[i] > 0.0F))
-            continue;
-        coat_transmit(&p->coat, p->slant, cosine[i], p->in);
-        for (int c = 0; c < 3; c++)
-            total[c] += cosine[i] * p->in[c];
-        sum += cosine[i];
-    }
-    /* All of it is below the horizon of the coat. */
-    coat_transmit(&p->coat, p->slant, 0.0F, p->in);
-    for (int c = 0; sum > 0.0F && c < 3; c++)
-        p->in[c] = total[c] / sum;
-}
-
-static void find_lit_point(const model_query *q, point *p)
-{
-    find_point(q, p);
-    if (q->area_light)
-        light_up_area(p, q->area_light);
-    else
-        light_up(p, q->wi);
 }
 
 /* N of both layers together, and p so that N p is the facets of both that are expected to be lit. */
@@ -175,7 +141,8 @@ static void eval_point(const point *p, glint_value *value)
 static void layered_eval(const model_query *q, glint_value *value)
 {
     point p;
-    find_lit_point(q, &p);
+    find_point(q, &p);
+    light_up(&p, q->wi);
     eval_point(&p, value);
 }
 
@@ -208,7 +175,8 @@ static void eval_chunk(const model_query *q, size_t count, glint_value *value)
     gathered g = { .count = 0 };
     glint_value base[CHUNK] = { { { 0 }, { 0 }, 0, 0, 0 } }, coat[CHUNK] = { { { 0 }, { 0 }, 0, 0, 0 } };
     for (size_t i = 0; i < count; i++) {
-        find_lit_point(&q[i], &p[i]);
+        find_point(&q[i], &p[i]);
+        light_up(&p[i], q[i].wi);
         if (p[i].base_lit)
             gather(&g, &p[i].base, i);
     }
@@ -306,9 +274,8 @@ static int sample_layer(const point *p, int from_coat, const float random[3], ve
         return 0;
     *wi = vec3_from(drawn.wi);
     if (from_coat)
-        *wi =
-            vec3_normalize(vec3_add(vec3_add(vec3_scale(p->frame.x, drawn.wi[0]), vec3_scale(p->frame.y, drawn.wi[1])),
-                                    vec3_scale(p->frame.z, drawn.wi[2])));
+        *wi = vec3_normalize(vec3_add(vec3_add(vec3_scale(p->x, drawn.wi[0]), vec3_scale(p->y, drawn.wi[1])),
+                                      vec3_scale(p->z, drawn.wi[2])));
     return 1;
 }
 

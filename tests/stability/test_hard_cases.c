@@ -167,46 +167,6 @@ static void random_bits_are_sane(void **state)
     }
 }
 
-static glint_area_light hostile_area_light(uint64_t *random)
-{
-    glint_area_light l;
-    uint32_t words[sizeof(l) / sizeof(uint32_t)];
-    for (size_t i = 0; i < sizeof(words) / sizeof(words[0]); i++) {
-        const float ordinary = (float)random_between(random, -2.0, 2.0), any = hostile(random, ordinary);
-        const float chosen = random_bits(random) & 1 ? any : ordinary;
-        memcpy(&words[i], &chosen, sizeof(uint32_t));
-    }
-    memcpy(&l, words, sizeof(l));
-    l.kind = (glint_area_kind)(random_bits(random) % 5);
-    l.corner_count = (uint32_t)(random_bits(random) % 10);
-    return l;
-}
-
-/* Of layers, which turn a light before they look at it. */
-static void layers_under_hostile_area_lights_are_sane(void **state)
-{
-    (void)state;
-    uint64_t random = 23;
-    for (int k = 0; k < CONFIGURATIONS; k++) {
-        const configuration c = configuration_of(GLINT_MODEL_LAYERED, k);
-        glint_material *m = create(&c.options);
-        for (int i = 0; i < 1500; i++) {
-            float wo[3];
-            random_direction(&random, wo);
-            const glint_footprint f = random_footprint(&random);
-            const glint_area_light light = hostile_area_light(&random);
-            glint_surface s = glint_material_surface(m);
-            const glint_coat coat = hostile_coat(&s, &f, &random);
-            if (i % 4)
-                s.coat = &coat;
-            glint_value v;
-            glint_eval_area(m, &s, &f, wo, &light, &v);
-            assert_sane(&v);
-        }
-        glint_material_destroy(m);
-    }
-}
-
 /* Vector code computes every branch for every lane: one lane's hard case must not raise an exception in another's
  * branch. */
 static void random_batches_are_sane(void **state)
@@ -311,7 +271,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(listed_hard_cases_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(random_bits_are_sane, with_traps, without_traps),
-        cmocka_unit_test_setup_teardown(layers_under_hostile_area_lights_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(random_batches_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(degenerate_footprints_give_the_smooth_limit, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(certain_reflection_is_smooth, with_traps, without_traps),
