@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/eval_query.h"
+#include "io/example_map.h"
 #include "io/scene_file.h"
 #include "scene/surface.h"
 
@@ -32,7 +33,7 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_TEXT,
       .target = offsetof(eval_values, material) },
     { .name = "model",
-      .help = "of each layer; auto is counting where it has glints",
+      .help = "of each layer; auto is what it asks for: example, dictionary or counting",
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = offsetof(eval_values, model) },
@@ -58,6 +59,29 @@ static const argument_syntax syntax = {
     .rule_count = sizeof rules / sizeof rules[0],
 };
 
+/* One layer before its material is made. The normals are what options.example.normals points to. */
+typedef struct layer_plan {
+    glint_material_options options;
+    float *normals;
+} layer_plan;
+
+static bool plan_layer(const eval_values *values, const scene *s, const scene_material *m, scene_glint_layer layer,
+                       layer_plan *out, report *r)
+{
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    const glint_model automatic = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
+    const glint_model model = values->model == 0 ? automatic : (glint_model)(values->model - 1);
+    out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, model) : scene_coat_options(m, model);
+    if (out->options.model != GLINT_MODEL_EXAMPLE)
+        return true;
+    if (g->structure != SCENE_STRUCTURE_EXAMPLE)
+        report_warning(r,
+                       "%s: has no glintExampleTexture for the example model; 16 x 16 flat facets that follow its "
+                       "roughness stand in",
+                       values->material);
+    return example_map_open(s, g, &out->options, &out->normals, r);
+}
+
 static glint_material *create(const eval_values *values, const glint_material_options *options, report *r)
 {
     glint_material *material = NULL;
@@ -67,25 +91,41 @@ static glint_material *create(const eval_values *values, const glint_material_op
     return material;
 }
 
-/* The layer that is asked for, or both, one over the other. */
-static glint_material *create_layers(const eval_values *values, const scene_material *m, report *r)
+static glint_material *create_layer(const eval_values *values, const scene *s, const scene_material *m,
+                                    scene_glint_layer layer, report *r)
 {
-    const glint_model model = values->model == 0 ? GLINT_MODEL_COUNTING : (glint_model)(values->model - 1);
+    layer_plan plan = { 0 };
+    glint_material *material = plan_layer(values, s, m, layer, &plan, r) ? create(values, &plan.options, r) : NULL;
+    free(plan.normals);
+    return material;
+}
+
+/* The layer that is asked for, or both, one over the other. */
+static glint_material *create_layers(const eval_values *values, const scene *s, const scene_material *m, report *r)
+{
     const bool has_coat = m->clearcoat > 0.0F;
-    const glint_material_options base = scene_base_options(m, model), coat = scene_coat_options(m, model);
     if (values->layer == LAYER_CLEARCOAT && !has_coat) {
         report_error(r, "%s: --layer clearcoat: found no clear coat, expected a clearcoatFactor above 0",
                      values->material);
         return NULL;
     }
     if (values->layer != LAYER_ALL || !has_coat)
-        return create(values, values->layer == LAYER_CLEARCOAT ? &coat : &base, r);
-    glint_material_options both = GLINT_MATERIAL_OPTIONS_INIT;
-    both.model = GLINT_MODEL_LAYERED;
-    both.layers.base = &base;
-    both.layers.coat = &coat;
-    both.layers.coat_weight = m->clearcoat;
-    return create(values, &both, r);
+        return create_layer(values, s, m, values->layer == LAYER_CLEARCOAT ? SCENE_LAYER_CLEARCOAT : SCENE_LAYER_BASE,
+                            r);
+    layer_plan base = { 0 }, coat = { 0 };
+    glint_material *material = NULL;
+    if (plan_layer(values, s, m, SCENE_LAYER_BASE, &base, r) &&
+        plan_layer(values, s, m, SCENE_LAYER_CLEARCOAT, &coat, r)) {
+        glint_material_options both = GLINT_MATERIAL_OPTIONS_INIT;
+        both.model = GLINT_MODEL_LAYERED;
+        both.layers.base = &base.options;
+        both.layers.coat = &coat.options;
+        both.layers.coat_weight = m->clearcoat;
+        material = create(values, &both, r);
+    }
+    free(base.normals);
+    free(coat.normals);
+    return material;
 }
 
 static glint_material *open_material(const eval_values *values, report *r)
@@ -96,7 +136,7 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    glint_material *material = create_layers(values, &m, r);
+    glint_material *material = create_layers(values, &s, &m, r);
     free(m.name);
     scene_free(&s);
     return material;
