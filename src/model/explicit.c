@@ -15,6 +15,7 @@
 #include "math/elementary.h"
 #include "math/hash.h"
 #include "model/facet.h"
+#include "model/facet_lobe.h"
 #include "model/lobe.h"
 
 /* What every facet of one evaluation has in common. */
@@ -26,57 +27,6 @@ typedef struct facet_sum {
     uint32_t seed;
     double density; /* sum of what the facets add to D, averaged over the light */
 } facet_sum;
-
-/* Mass of a lobe around the origin within a disk of radius r at distance d, both squared and in units of the lobe's
- * width. GGX is a uniform sphere in stereographic projection, so the disk is a cap of that sphere. */
-static float ggx_disk_mass(float d2, float r2)
-{
-    const float t = 1.0F + d2 - r2;
-    const float root = sqrtf(t * t + 4.0F * r2);
-    /* (1 - t / root) / 2, without the difference of nearly equal numbers. */
-    return t > 0.0F ? 2.0F * r2 / (root * (root + t)) : 0.5F * (1.0F - t / root);
-}
-
-/* exp(-x) I0(x) for x >= 0: Abramowitz and Stegun 9.8.1 and 9.8.2, error below 2e-7 in the function. */
-static float bessel_scaled(float x)
-{
-    if (x < 3.75F) {
-        const float t = x * x * (1.0F / 14.0625F);
-        float p = 0.0045813F * t + 0.0360768F;
-        p = p * t + 0.2659732F;
-        p = p * t + 1.2067492F;
-        p = p * t + 3.0899424F;
-        p = p * t + 3.5156229F;
-        return exp_negative(-x) * (p * t + 1.0F);
-    }
-    const float t = 3.75F / x;
-    float p = 0.00392377F * t - 0.01647633F;
-    p = p * t + 0.02635537F;
-    p = p * t - 0.02057706F;
-    p = p * t + 0.00916281F;
-    p = p * t - 0.00157565F;
-    p = p * t + 0.00225319F;
-    p = p * t + 0.01328592F;
-    return (p * t + 0.39894228F) / sqrtf(x);
-}
-
-/* The Gaussian lobe exp(-r^2) / pi: integral of 2 s exp(-(s - d)^2) exp(-2 s d) I0(2 s d) ds up to r. */
-static float beckmann_disk_mass(float d2, float r2)
-{
-    enum { POINTS = 32 };
-    const float d = sqrtf(d2), r = sqrtf(r2);
-    /* Nothing happens further than 5 widths from d. */
-    const float from = fmaxf(0.0F, d - 5.0F), to = fminf(r, d + 5.0F);
-    if (to <= from)
-        return 0.0F;
-    const float step = (to - from) / POINTS;
-    float sum = 0.0F;
-    for (int i = 0; i < POINTS; i++) {
-        const float s = from + ((float)i + 0.5F) * step;
-        sum += 2.0F * s * exp_negative(-(s - d) * (s - d)) * bessel_scaled(2.0F * s * d);
-    }
-    return fminf(sum * step, 1.0F);
-}
 
 /* The part of one facet's reflection that meets the light's cap. The lobe is taken as round around the mirrored view.
  */
@@ -95,7 +45,7 @@ static float lit_part(const facet_sum *s, vec3 h)
     /* A lobe of solid angle alpha^2 in h has 4 h.wo times that in wi. */
     const float scale = 1.0F / (alpha * alpha * 4.0F * cosine);
     const float d2 = fminf(off2 * scale, 1e12F), r2 = fminf(s->chord2 * scale, 1e12F);
-    return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
+    return facet_lobe_disk_mass(s->distribution.kind, d2, r2);
 }
 
 static void add_facet(int64_t x, int64_t y, double share, void *user)
