@@ -253,6 +253,18 @@ void glint_eval_value(const glint_material *material, const glint_surface *surfa
     make_finite(value);
 }
 
+void glint_eval_area(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,
+                     const float wo[3], const glint_area_light *light, glint_value *value)
+{
+    checked c;
+    *value = (glint_value){ 0 };
+    if (!light || !begin(&c, material, surface, footprint, wo))
+        return;
+    c.query.area_light = light;
+    material->model->eval(&c.query, value);
+    make_finite(value);
+}
+
 void glint_eval(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,
                 const float wo[3], const float wi[3], const glint_light *light, float rgb[3])
 {
@@ -292,13 +304,23 @@ float glint_pdf(const glint_material *material, const glint_surface *surface, co
 
 static int has_all(const glint_batch *b)
 {
-    const void *const arrays[] = { b->u,      b->v,     b->dudx,  b->dudy,  b->dvdx,  b->dvdy,           b->wo[0],
-                                   b->wo[1],  b->wo[2], b->wi[0], b->wi[1], b->wi[2], b->solid_angle_sr, b->rgb[0],
-                                   b->rgb[1], b->rgb[2] };
+    const void *const arrays[] = { b->u,     b->v,     b->dudx,  b->dudy,   b->dvdx,   b->dvdy,
+                                   b->wo[0], b->wo[1], b->wo[2], b->rgb[0], b->rgb[1], b->rgb[2] };
     for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); i++)
         if (!arrays[i])
             return 0;
-    return 1;
+    return b->area_lights || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
+}
+
+/* The light of entry i. False: it lights nothing. */
+static int light_entry(checked *c, const glint_batch *b, size_t i)
+{
+    if (b->area_lights) {
+        c->query.area_light = &b->area_lights[i];
+        return 1;
+    }
+    const float wi[3] = { b->wi[0][i], b->wi[1][i], b->wi[2][i] };
+    return light_up(c, wi, b->solid_angle_sr[i]);
 }
 
 glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch)
@@ -317,7 +339,6 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
         for (size_t j = 0; j < count; j++) {
             const size_t i = start + j;
             const float wo[3] = { batch->wo[0][i], batch->wo[1][i], batch->wo[2][i] };
-            const float wi[3] = { batch->wi[0][i], batch->wi[1][i], batch->wi[2][i] };
             footprint[j] = (glint_footprint){ batch->u[i],
                                               batch->v[i],
                                               batch->dudx[i],
@@ -327,7 +348,7 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->seed ? batch->seed[i] : 0U };
             batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
             if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
-                !light_up(&c[j], wi, batch->solid_angle_sr[i]))
+                !light_entry(&c[j], batch, i))
                 continue;
             query[lit] = c[j].query;
             index[lit++] = i;

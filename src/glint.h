@@ -254,9 +254,35 @@ typedef struct glint_light {
     float solid_angle_sr; /* > 0, at most 2 pi */
 } glint_light;
 
+typedef enum glint_area_kind {
+    GLINT_AREA_SUN = 0,   /* round, at infinity, of any solid angle */
+    GLINT_AREA_SPHERE,    /* shines outwards; from within there is nothing to see */
+    GLINT_AREA_RECTANGLE, /* center + x half_x + y half_y, |x| and |y| up to 1: a parallelogram */
+    GLINT_AREA_DISK,      /* center + x half_x + y half_y, x^2 + y^2 up to 1: an ellipse */
+    GLINT_AREA_POLYGON    /* flat and convex */
+} glint_area_kind;
+
+enum { GLINT_MAX_CORNERS = 8 };
+
+/* A light of real size, the same radiance from every point of it in every direction. It lies in the local frame of the
+ * shaded point, which is the origin: z the normal, x the tangent. Metres. Only what its kind names is read. */
+typedef struct glint_area_light {
+    glint_area_kind kind;
+    uint32_t two_sided; /* rectangle, disk, polygon. 0: it shines to the side of half_x x half_y, or to that from which
+                           the corners run counter-clockwise. 1: to both */
+    float hidden;       /* [0, 1], share of the light that something stands in front of: so much less light, and so
+                           many fewer facets that are lit */
+    float solid_angle_sr;                /* sun, (0, 2 pi] */
+    float radius;                        /* sphere */
+    float center[3];                     /* sun: direction to its middle, of any length */
+    float half_x[3], half_y[3];          /* rectangle, disk */
+    uint32_t corner_count;               /* polygon, 3 to GLINT_MAX_CORNERS */
+    float corners[GLINT_MAX_CORNERS][3]; /* polygon */
+} glint_area_light;
+
 /* All that evaluation knows about one point and one light. */
 typedef struct glint_value {
-    float rgb[3];          /* f(wo, wi) * |cos theta_i|, discrete */
+    float rgb[3];          /* f(wo, wi) * |cos theta_i|, discrete; of an area light: see glint_eval_area */
     float smooth[3];       /* the same without discreteness: the expectation of rgb over seeds */
     float facet_count;     /* N, facets under the footprint */
     float lit_probability; /* p, that one facet reflects the light to the viewer */
@@ -282,6 +308,24 @@ GLINT_API void glint_eval(const glint_material *material, const glint_surface *s
 GLINT_API void glint_eval_value(const glint_material *material, const glint_surface *surface,
                                 const glint_footprint *footprint, const float wo[3], const float wi[3],
                                 const glint_light *light, glint_value *value);
+
+/* The integral of f(wo, wi) * cos theta_i over the directions in which the light is seen above the horizon, averaged
+ * over the footprint: a light of radiance L adds L * rgb to the pixel. There is no wi and no solid angle to multiply
+ * with, and what is below the horizon or turned away adds nothing.
+ *
+ * surface    NULL: the material's own
+ * footprint  NULL or degenerate: the smooth limit
+ * light      NULL, not finite, edge-on, behind the surface, of no area: zero
+ *
+ * counting: smooth * b(N, p) / (N p), p the integral of D over the half vectors that lie in the light (Kneiphof and
+ *           Klein 2024, Eqs. 12 to 16).
+ * explicit: every facet against the true shape; a rough facet by the part of its lobe that the shape takes in.
+ * dictionary, example: points of the light and directions of the material, weighted by multiple importance.
+ * docs/lights.md has the equations and the errors.
+ */
+GLINT_API void glint_eval_area(const glint_material *material, const glint_surface *surface,
+                               const glint_footprint *footprint, const float wo[3], const glint_area_light *light,
+                               glint_value *value);
 
 typedef struct glint_sample {
     float wi[3];
@@ -316,19 +360,18 @@ typedef struct glint_batch {
     const uint32_t *seed;       /* NULL: 0 everywhere */
     const float *wo[3], *wi[3]; /* x, y and z apart */
     const float *solid_angle_sr;
-    const glint_surface *surfaces; /* NULL: the material's own everywhere */
-    float *rgb[3];                 /* out */
+    const glint_surface *surfaces;       /* NULL: the material's own everywhere */
+    float *rgb[3];                       /* out */
+    const glint_area_light *area_lights; /* NULL: caps. Else wi and solid_angle_sr are not read, and may be NULL */
 } glint_batch;
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0,                                   \
-        {                                                                                                              \
-            0, 0, 0                                                                                                    \
-        }                                                                                                              \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0                    \
     }
 
-/* glint_eval for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is missing. */
+/* glint_eval, or glint_eval_area, for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is
+ * missing. */
 GLINT_API glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch);
 
 #ifdef __cplusplus

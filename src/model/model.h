@@ -26,6 +26,9 @@ typedef struct model_query {
     const glint_footprint *footprint; /* NULL: the smooth limit */
     float solid_angle_sr;             /* of the light; 0: the smooth limit. Sampling and its density have no light */
     vec3 wo, wi;
+    /* NULL: a cap of solid_angle_sr around wi. Else wi and solid_angle_sr are not set, and eval integrates over the
+     * light as glint_eval_area says; its numbers have not been checked, and area_see in model/area.h does. */
+    const glint_area_light *area_light;
 } model_query;
 
 struct model {

@@ -81,32 +81,116 @@ static float importance(const shade_layer *layer)
     return layer->weight * sum;
 }
 
-bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
+/* The probability that shade_sample chooses a layer. */
+static float share_of(const shade_point *p, int layer)
 {
-    float share = 1.0F;
-    const shade_layer *layer = &p->layers[0];
-    if (p->layer_count == 0)
-        return false;
-    if (p->layer_count == 2) {
-        const float base = importance(&p->layers[0]);
-        const float coat = importance(&p->layers[1]);
-        const float share_of_coat = base + coat > 0.0F ? coat / (base + coat) : 0.5F;
-        const bool take_coat = choose_layer < share_of_coat;
-        layer = &p->layers[take_coat ? 1 : 0];
-        share = take_coat ? share_of_coat : 1.0F - share_of_coat;
-    }
+    if (p->layer_count < 2)
+        return 1.0F;
+    const float base = importance(&p->layers[0]);
+    const float coat = importance(&p->layers[1]);
+    const float share_of_coat = base + coat > 0.0F ? coat / (base + coat) : 0.5F;
+    return layer == 1 ? share_of_coat : 1.0F - share_of_coat;
+}
 
-    /* glTF: occlusion darkens diffuse light from all around, nothing else. */
+/* glTF: occlusion darkens diffuse light from all around, nothing else. */
+static glint_surface surface_in_surroundings(const shade_point *p, const shade_layer *layer)
+{
     glint_surface surface = layer->surface;
     for (int c = 0; c < 3; ++c)
         surface.diffuse[c] *= p->occlusion;
+    return surface;
+}
+
+bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
+{
+    if (p->layer_count == 0)
+        return false;
+    const int chosen = p->layer_count == 2 && choose_layer < share_of(p, 1) ? 1 : 0;
+    const float share = share_of(p, chosen);
+    const shade_layer *const layer = &p->layers[chosen];
+    const glint_surface surface = surface_in_surroundings(p, layer);
 
     glint_sample sample;
     if (!glint_sample_direction(layer->material, &surface, NULL, layer->wo, random, &sample))
         return false;
+    out->layer = chosen;
     out->wi = to_world(layer, sample.wi);
     out->pdf = sample.pdf * share;
     for (int c = 0; c < 3; ++c)
         out->weight[c] = sample.weight[c] * layer->weight / share;
     return true;
+}
+
+/* ---- light from all around, found in two ways ---- */
+
+/* A layer under a patch, with the footprint that a sample of this density stands for. */
+static void eval_patch(const shade_point *p, const shade_layer *layer, const glint_surface *surface,
+                       const shade_surroundings *s, const float wi[3], float density, glint_value *value)
+{
+    const glint_light light = { GLINT_LIGHT_CAP, fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI)) };
+    const float expected = s->solid_angle_sr * density;
+    const float grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
+    const float longer = sqrtf(grown);
+    glint_footprint footprint = p->footprint;
+    footprint.dudx *= longer;
+    footprint.dudy *= longer;
+    footprint.dvdx *= longer;
+    footprint.dvdy *= longer;
+    glint_eval_value(layer->material, surface, layer->counts ? &footprint : NULL, layer->wo, wi, &light, value);
+    value->facet_count /= grown;
+}
+
+static void keep_facets(const shade_layer *layer, const glint_value *from, glint_value *to)
+{
+    if (!layer->counts)
+        return;
+    to->facet_count = from->facet_count;
+    to->lit_probability = from->lit_probability;
+    to->over_limit = from->over_limit;
+}
+
+void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
+{
+    *value = (glint_value){ 0 };
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3];
+        glint_value one;
+        to_local(layer, s->wi, local);
+        const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+        const float density = s->light_pdf + own;
+        if (!(density > 0.0F))
+            continue;
+        eval_patch(p, layer, &surface, s, local, density, &one);
+        for (int c = 0; c < 3; ++c) {
+            value->rgb[c] += layer->weight * one.rgb[c] / density;
+            value->smooth[c] += layer->weight * one.smooth[c] / density;
+        }
+        keep_facets(layer, &one, value);
+    }
+}
+
+void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
+                      glint_value *value)
+{
+    const shade_layer *const layer = &p->layers[found->layer];
+    const float density = s->light_pdf + found->pdf;
+    const bool counts = layer->counts && s->solid_angle_sr > 0.0F;
+    glint_value one = { 0 };
+    *value = (glint_value){ 0 };
+    if (counts) {
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3];
+        to_local(layer, s->wi, local);
+        eval_patch(p, layer, &surface, s, local, density, &one);
+        keep_facets(layer, &one, value);
+    }
+    for (int c = 0; c < 3; ++c) {
+        /* The sample's own quotient: a sharp lobe at a rounded direction would give another. */
+        value->smooth[c] = found->weight[c] * (found->pdf / density);
+        value->rgb[c] = value->smooth[c];
+        if (counts && one.smooth[c] > 0.0F)
+            value->rgb[c] *= one.rgb[c] / one.smooth[c];
+    }
 }

@@ -48,6 +48,7 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 bool shade_faces(const shade_point *p, vec3 wi);
 
 typedef struct shade_direction {
+    int layer;       /* which was chosen */
     vec3 wi;         /* world, unit */
     float weight[3]; /* f |cos theta_i| / pdf of the layer that was chosen */
     float pdf;       /* per steradian, the choice of the layer included */
@@ -55,6 +56,25 @@ typedef struct shade_direction {
 
 /* Draws a direction for indirect light from uniforms in [0, 1). False: the path ends here. */
 bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out);
+
+/* A direction that can be found in two ways: by the light's own distribution, and by shade_sample. */
+typedef struct shade_surroundings {
+    vec3 wi;
+    float light_pdf;      /* per steradian, of the first way */
+    float solid_angle_sr; /* of the patch of even light around wi; 0: it reaches all facets, count none */
+    float most_samples;   /* of a pixel: a footprint may grow so many times, and then covers the pixel */
+} shade_surroundings;
+
+/* What a direction that was found in the first way adds, per radiance: the sum over layers of f |cos theta_i| /
+ * (light_pdf
+ * + the layer's own density), which is the balance heuristic. Occlusion darkens the diffuse part.
+ *
+ * Few samples look into a patch, so each stands for more of the pixel than its own footprint: for 1 / P of it, with P
+ * samples expected there. It counts the facets of that area. */
+void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value);
+/* The same for one that shade_sample found: its layer's part. */
+void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
+                      glint_value *value);
 
 /* Opacity of a point for rays that only want to know whether they pass; textures are not filtered. */
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at);

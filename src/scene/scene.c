@@ -41,6 +41,7 @@ static void free_names(scene *s)
         free(s->lights[i].name);
     for (int i = 0; i < s->variant_count; i++)
         free(s->variants[i]);
+    free(s->environment.name);
 }
 
 void scene_free(scene *s)

@@ -181,7 +181,8 @@ static void random_batches_are_sane(void **state)
                                 { wi[0], wi[1], wi[2] },
                                 angle,
                                 surface,
-                                { rgb[0], rgb[1], rgb[2] } };
+                                { rgb[0], rgb[1], rgb[2] },
+                                NULL };
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
         for (int i = 0; i < COUNT; i++)
             assert_sane(&(glint_value){ { rgb[0][i], rgb[1][i], rgb[2][i] }, { 0 }, 0, 0, 0 });
