@@ -177,15 +177,20 @@ int preview_footprint_side(int spp)
 /* The ray goes through any point of its stratum, the footprint is the stratum itself. Around the ray's own point the
  * footprints of a pixel's samples would overlap here and leave gaps there, and pixels would vary by up to 40 % more
  * than the facets under them. */
-static void tile_footprint(const world *w, const double jitter[2], glint_footprint *f)
+static void tile_footprints(const world *w, const double jitter[2], shade_point *point)
 {
     double to_middle[2];
     for (int k = 0; k < 2; ++k) {
         const double at = jitter[k] * w->footprint_side;
         to_middle[k] = floor(at) + 0.5 - at;
     }
-    f->u += to_middle[0] * (double)f->dudx + to_middle[1] * (double)f->dudy;
-    f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
+    for (int i = 0; i < point->layer_count; ++i) {
+        glint_footprint *const f = &point->layers[i].footprint;
+        if (!point->layers[i].counts)
+            continue;
+        f->u += to_middle[0] * (double)f->dudx + to_middle[1] * (double)f->dudy;
+        f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
+    }
 }
 
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
@@ -206,7 +211,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
             add_seen_sky(w, v.ray.direction, transmittance, out);
             return;
         }
-        tile_footprint(w, jitter, &v.point.footprint);
+        tile_footprints(w, jitter, &v.point);
         direct_facets facets = { 0 };
         const radiance seen = light_of_layer(w, &v, &random, &facets, counts);
         if (layer == 0)

@@ -24,7 +24,6 @@ static glint_footprint pixel_of(double facets, double density, uint64_t *random)
 typedef struct setting {
     int configuration, hash, view;
     double facets; /* under the pixel */
-    float facet_alpha;
 } setting;
 
 /* Value over the smooth one, in the mean and around the mean that it must have. */
@@ -53,7 +52,7 @@ static void mean_and_variance_are_those_of_independent_facets(void **state)
     uint64_t random = 1;
     double worst_mean = 0.0, worst_variance = 0.0;
     for (int i = 0; i < 40; i++) {
-        const setting t = { i % 5, i / 5 % 2, i % 3, i % 4 == 0 ? 0.3 : i % 4 == 1 ? 3.0 : 25.0, 0.0F };
+        const setting t = { i % 5, i / 5 % 2, i % 3, i % 4 == 0 ? 0.3 : i % 4 == 1 ? 3.0 : 25.0 };
         configuration c = configuration_of(GLINT_MODEL_EXPLICIT, t.configuration);
         c.options.facet_hash = (glint_facet_hash)t.hash;
         c.options.facet_alpha = 0.0F;
@@ -80,32 +79,6 @@ static void mean_and_variance_are_those_of_independent_facets(void **state)
     printf("largest deviation in sigmas: mean %.1f, variance %.1f\n", worst_mean, worst_variance);
 }
 
-/* The mean over facets of their lobes' parts within the light is D convolved with the lobe, and D itself where the lobe
- * is narrow beside it. */
-static void rough_facets_keep_the_mean(void **state)
-{
-    (void)state;
-    uint64_t random = 2;
-    for (int i = 0; i < 4; i++) {
-        setting t = { i, 0, i % 3, 25.0, 0.02F };
-        configuration c = configuration_of(GLINT_MODEL_EXPLICIT, t.configuration);
-        c.options.surface.facets_per_m2 = 1e8F;
-        c.options.surface.alpha_x = c.options.surface.alpha_y = 0.4F;
-        c.options.facet_alpha = t.facet_alpha;
-        float wo[3], wi[3];
-        direction(0.5 * t.view, 0.3, wo);
-        direction(0.5 * t.view + 0.15, 0.3 + PI, wi);
-        const double expected = facet_moments_of(&c.options, wo, wi, 0.01).mean;
-        moments x = { 0 }, square = { 0 };
-        sample(&t, &c.options, expected, 40000, &random, &x, &square);
-        const double error = x.mean - expected, sigma = moments_standard_error(&x);
-        /* Convolving D of width .4 with a lobe of width .02 takes away at most (.02 / .4)^2 of it, GGX's tail a few
-         * times that. */
-        if (fabs(error) > 4.2 * sigma + 0.01)
-            fail_msg("%s: mean %g, expected %g, %.1f sigmas", c.name, x.mean, expected, error / sigma);
-    }
-}
-
 static void more_facets_than_the_limit_give_the_smooth_value_and_their_number(void **state)
 {
     (void)state;
@@ -127,7 +100,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_and_variance_are_those_of_independent_facets),
-        cmocka_unit_test(rough_facets_keep_the_mean),
         cmocka_unit_test(more_facets_than_the_limit_give_the_smooth_value_and_their_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
