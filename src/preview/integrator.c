@@ -121,7 +121,7 @@ static void describe_first_hit(const world *w, const vertex *v, const direct_fac
     out->normal[2] = (float)n.z;
     memcpy(out->albedo, v->point.albedo, sizeof out->albedo);
     out->depth = (float)camera_depth(w->camera, v->hit.position);
-    out->facet_count = facets->count * (float)w->spp;
+    out->facet_count = facets->count * (float)(w->footprint_side * w->footprint_side);
     out->lit_probability = facets->lit_probability;
 }
 
@@ -166,6 +166,33 @@ static sampler sampler_of_layer(const sampler *pixel, int layer)
     return layer == 0 ? *pixel : (sampler){ hash_combine(pixel->pixel, (uint32_t)layer), pixel->sample };
 }
 
+int preview_footprint_side(int spp)
+{
+    int side = 1;
+    while (4 * side * side <= spp)
+        side *= 2;
+    return side;
+}
+
+/* The ray goes through any point of its stratum, the footprint is the stratum itself. Around the ray's own point the
+ * footprints of a pixel's samples would overlap here and leave gaps there, and pixels would vary by up to 40 % more
+ * than the facets under them. */
+static void tile_footprints(const world *w, const double jitter[2], shade_point *point)
+{
+    double to_middle[2];
+    for (int k = 0; k < 2; ++k) {
+        const double at = jitter[k] * w->footprint_side;
+        to_middle[k] = floor(at) + 0.5 - at;
+    }
+    for (int i = 0; i < point->layer_count; ++i) {
+        glint_footprint *const f = &point->layers[i].footprint;
+        if (!point->layers[i].counts)
+            continue;
+        f->u += to_middle[0] * (double)f->dudx + to_middle[1] * (double)f->dudy;
+        f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
+    }
+}
+
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
 {
     *out = (pixel_sample){ 0 };
@@ -174,7 +201,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
     sampler_pair(&pixel, dimension(0, DIM_PIXEL), jitter);
     vertex v;
     camera_ray(w->camera, x + jitter[0], y + jitter[1], &v.ray, &v.step);
-    v.step = differential_scale(&v.step, 1.0 / sqrt((double)w->spp));
+    v.step = differential_scale(&v.step, 1.0 / w->footprint_side);
 
     float transmittance = 1.0F;
     for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {
@@ -184,6 +211,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
             add_seen_sky(w, v.ray.direction, transmittance, out);
             return;
         }
+        tile_footprints(w, jitter, &v.point);
         direct_facets facets = { 0 };
         const radiance seen = light_of_layer(w, &v, &random, &facets, counts);
         if (layer == 0)

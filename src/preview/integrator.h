@@ -20,6 +20,8 @@ typedef struct world {
     const environment *environment; /* in place of the sky; NULL: none */
     bool has_sky, sky_seen;         /* seen: by the camera */
     int bounces, spp;
+    /* The samples' footprints tile a pixel, side x side of them: see preview_footprint_side. */
+    int footprint_side;
     uint32_t seed;
 } world;
 
@@ -42,6 +44,10 @@ typedef struct ray_counts {
     uint64_t over_limit; /* evaluations with more facets than the explicit model visits */
     float most_facets;   /* of those */
 } ray_counts;
+
+/* The largest power of two whose square is at most spp: so many strata along a side of the pixel hold as many samples
+ * each. */
+int preview_footprint_side(int spp);
 
 /* Sample number index of the pixel (x, y), which stands for 1/spp of it. */
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts);

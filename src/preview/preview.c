@@ -143,6 +143,7 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
                          .shader = { s, &st->materials, st->textures },
                          .bounces = o->bounces,
                          .spp = o->spp,
+                         .footprint_side = preview_footprint_side(o->spp),
                          .seed = o->seed };
     if (!set_environment(st, o, r))
         return false;

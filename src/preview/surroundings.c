@@ -6,7 +6,8 @@
 
 static shade_surroundings surroundings_of(const world *w, const environment_light *from)
 {
-    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr, (float)w->spp };
+    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr,
+                                 (float)(w->footprint_side * w->footprint_side) };
 }
 
 static void count_evaluation(const shade_point *p, const glint_value *value, ray_counts *counts)
