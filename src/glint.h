@@ -112,6 +112,12 @@ typedef struct glint_surface {
     float discreteness; /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
 } glint_surface;
 
+/* How facets are integrated over a light of real size. */
+typedef enum glint_area_light_method {
+    GLINT_AREA_LIGHT_FAST = 0, /* linearly transformed cosines; where alpha_x and alpha_y differ, as exact */
+    GLINT_AREA_LIGHT_EXACT     /* adaptive quadrature, error below 1 % */
+} glint_area_light_method;
+
 typedef enum glint_example_placement {
     GLINT_EXAMPLE_TILED = 0, /* side by side, all with the same transform */
     GLINT_EXAMPLE_SCATTERED  /* one at random in every square of side_m, over a flat ground; the nearest centre wins */
@@ -174,6 +180,7 @@ typedef struct glint_material_options {
     uint32_t color_count;        /* [0, GLINT_MAX_COLORS], how many of the colors there are; dictionary only */
     float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean */
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
+    glint_area_light_method area_light_method;
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -192,7 +199,7 @@ typedef struct glint_material_options {
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT                                                               \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_AREA_LIGHT_FAST                                        \
     }
 
 typedef struct glint_material glint_material;
