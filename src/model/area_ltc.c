@@ -84,7 +84,7 @@ static void add_point(quotients *s, vec3d moved, double weight)
     s->y += facets * (double)h.y;
     s->z += facets * (double)h.z;
     for (int c = 0; c < 3; c++)
-        s->fresnel[c] += reflected * (double)lobe_reflectance(s->q, c, cosine);
+        s->fresnel[c] += reflected * (double)lobe_facet_reflectance(s->q, c, cosine);
 }
 
 /* One triangle of directions: its middle, by its projected size. */

@@ -72,3 +72,26 @@ int area_see(const model_query *q, area_light *light)
     }
     return light->kind != AREA_NOTHING;
 }
+
+static void turn(const float from[3], vec3 x, vec3 y, vec3 z, float to[3])
+{
+    /* What is not usable stays so, without arithmetic that would raise an exception. */
+    to[0] = to[1] = to[2] = 3e38F;
+    if (!is_usable(from))
+        return;
+    const vec3 v = vec3_from(from);
+    to[0] = vec3_dot(v, x);
+    to[1] = vec3_dot(v, y);
+    to[2] = vec3_dot(v, z);
+}
+
+glint_area_light area_turn(const glint_area_light *from, vec3 x, vec3 y, vec3 z)
+{
+    glint_area_light to = *from;
+    turn(from->center, x, y, z, to.center);
+    turn(from->half_x, x, y, z, to.half_x);
+    turn(from->half_y, x, y, z, to.half_y);
+    for (int i = 0; i < GLINT_MAX_CORNERS; i++)
+        turn(from->corners[i], x, y, z, to.corners[i]);
+    return to;
+}

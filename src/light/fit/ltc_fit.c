@@ -185,15 +185,32 @@ double ltc_fit_cosine(int j)
     return 1.0 - 0.99 * t * t;
 }
 
+/* What z adds to x' in the transform of one view, and the p[1] that adds as much in that of another: a lobe close to the
+ * horizon moves less with the view than along and shift do. */
+static double lift_of(const lobe *l, const double p[3])
+{
+    const transform t = transform_of(l, p);
+    return t.shift - t.along * l->sine;
+}
+
+static double shift_for(const lobe *l, const double p[3], double lift)
+{
+    return (lift + transform_of(l, p).along * l->sine) * 2.0 * l->cosine / l->alpha;
+}
+
 void ltc_fit_row(int distribution, double alpha, ltc_fit row[LTC_FIT_SIDE])
 {
     /* A narrow lobe is 2 alpha wide. p[0] and p[2] are logarithms here: both are positive. */
     double p[3] = { 0.0, 0.0, 0.0 };
+    lobe l = { distribution == LTC_FIT_BECKMANN, alpha, 1.0, 0.0, 1.0 };
     for (int j = 0; j < LTC_FIT_SIDE; j++) {
-        const double cosine = ltc_fit_cosine(j);
-        lobe l = { distribution == LTC_FIT_BECKMANN, alpha, cosine, sqrt((1.0 - cosine) * (1.0 + cosine)), 1.0 };
+        const double lift = lift_of(&l, p);
+        const int is_low = l.cosine < alpha;
+        l.cosine = ltc_fit_cosine(j);
+        l.sine = sqrt((1.0 - l.cosine) * (1.0 + l.cosine));
+        if (is_low)
+            p[1] = shift_for(&l, p, lift);
         integrate(&l, &row[j]);
-        const double before[3] = { p[0], p[1], p[2] };
         minimise(&l, p);
         minimise(&l, p);
         if (j == 0) {
@@ -204,12 +221,6 @@ void ltc_fit_row(int distribution, double alpha, ltc_fit row[LTC_FIT_SIDE])
             p[2] = round;
         }
         distance(&l, p, &row[j].residual);
-        /* A lobe so flat that the simplex has lost it between the points: the one before is closer. */
-        if (j > 0 && row[j].residual > row[j - 1].residual + 0.1) {
-            for (int k = 0; k < 3; k++)
-                p[k] = before[k];
-            distance(&l, p, &row[j].residual);
-        }
         row[j].p[0] = exp(p[0]);
         row[j].p[1] = p[1];
         row[j].p[2] = exp(p[2]);
