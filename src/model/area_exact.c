@@ -63,11 +63,11 @@ static void add_spoke(const sweep_node *n, void *user)
     }
 }
 
-void area_facets_exact(const model_query *q, const area_light *from, area_facets *value)
+void area_facets_exact(const model_query *q, const area_light *light, area_facets *value)
 {
-    area_light measured = *from, *const light = &measured;
+    area_light seen = *light;
     *value = (area_facets){ .cap = 0.0 };
-    if (!area_measure(light))
+    if (!area_measure(&seen))
         return;
     facet_integral s = { .q = q, .distribution = lobe_ndf(q) };
     s.masked_o = ndf_masked(&s.distribution, q->wo);
@@ -77,8 +77,8 @@ void area_facets_exact(const model_query *q, const area_light *from, area_facets
                             vec3d_of(q->wo),
                             s.distribution.kind == NDF_BECKMANN };
     const vec3d mirrored = { -(double)q->wo.x, -(double)q->wo.y, (double)q->wo.z };
-    s.v0 = area_contains(light, mirrored) ? 1.0 : sweep_level(&map, light->middle);
-    sweep_each(light, &map, add_spoke, &s);
+    s.v0 = area_contains(&seen, mirrored) ? 1.0 : sweep_level(&map, seen.middle);
+    sweep_each(&seen, &map, add_spoke, &s);
     const double sign = s.sum.facets < 0.0 ? -1.0 : 1.0;
     *value = (area_facets){ .facets = sign * s.sum.facets,
                             .projected = fmax(0.0, sign * s.sum.projected),

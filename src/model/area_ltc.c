@@ -49,6 +49,7 @@ typedef struct quotients {
     const ltc *fit;
     ndf distribution;
     float masked_o;
+    int is_schlick;                       /* then fresnel[0] has f times (1 - h.wi)^5, which does for all channels */
     double weight, reflected, fresnel[3]; /* of f with F = 1; of f with F */
     double facets, x, y, z;               /* of D / (4 h.wi); of the same times h */
     double least, most;                   /* quotient of f */
@@ -83,8 +84,22 @@ static void add_point(quotients *s, vec3d moved, double weight)
     s->x += facets * (double)h.x;
     s->y += facets * (double)h.y;
     s->z += facets * (double)h.z;
+    if (s->is_schlick) {
+        const double m = 1.0 - (double)cosine, m2 = m * m;
+        s->fresnel[0] += reflected * (m2 * m2 * m);
+        return;
+    }
     for (int c = 0; c < 3; c++)
         s->fresnel[c] += reflected * (double)lobe_facet_reflectance(s->q, c, cosine);
+}
+
+/* The mean reflectance of the facets that light the viewer. */
+static double fresnel_of(const quotients *s, int channel)
+{
+    if (!s->is_schlick)
+        return s->fresnel[channel] / s->reflected;
+    const double f0 = (double)s->q->surface->f0[channel], f90 = (double)s->q->surface->f90[channel];
+    return f0 + (f90 - f0) * (s->fresnel[0] / s->reflected);
 }
 
 /* One triangle of directions: its middle, by its projected size. */
@@ -141,6 +156,7 @@ void area_facets_fast(const model_query *q, const area_light *light, area_facets
     if (!ltc_move(&fit, light, &moved))
         return;
     quotients s = { .q = q, .fit = &fit, .distribution = lobe_ndf(q) };
+    s.is_schlick = q->material->options.fresnel == GLINT_FRESNEL_SCHLICK;
     s.masked_o = ndf_masked(&s.distribution, q->wo);
     add_points(&s, &moved, 0);
     if (s.most > COARSE_SPREAD * s.least) {
@@ -158,7 +174,7 @@ void area_facets_fast(const model_query *q, const area_light *light, area_facets
     const double reflected = part * (known * fit.albedo + (1.0 - known) * s.reflected / s.weight);
     value->facets = part * (known * fit.facets + (1.0 - known) * s.facets / s.weight);
     for (int c = 0; c < 3; c++)
-        value->specular[c] = reflected * s.fresnel[c] / s.reflected;
+        value->specular[c] = reflected * fresnel_of(&s, c);
     value->projected = value->facets * s.z / s.facets;
     value->x = value->facets * s.x / s.facets;
     value->y = value->facets * s.y / s.facets;

@@ -185,8 +185,8 @@ double ltc_fit_cosine(int j)
     return 1.0 - 0.99 * t * t;
 }
 
-/* What z adds to x' in the transform of one view, and the p[1] that adds as much in that of another: a lobe close to the
- * horizon moves less with the view than along and shift do. */
+/* What z adds to x' in the transform of one view, and the p[1] that adds as much in that of another: a lobe close to
+ * the horizon moves less with the view than along and shift do. */
 static double lift_of(const lobe *l, const double p[3])
 {
     const transform t = transform_of(l, p);
