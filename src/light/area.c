@@ -12,7 +12,7 @@ static double largest_coordinate(const vec3d *v, int count)
 {
     double largest = 0.0;
     for (int i = 0; i < count; i++)
-        largest = fmax(largest, fmax(fabs(v[i].x), fmax(fabs(v[i].y), fabs(v[i].z))));
+        largest = real_max(largest, real_max(fabs(v[i].x), real_max(fabs(v[i].y), fabs(v[i].z))));
     return largest;
 }
 
@@ -132,7 +132,7 @@ void area_make_round(area_light *l, vec3d axis, double sine, double cosine)
 {
     l->kind = AREA_NOTHING;
     /* Half the sphere of directions at most, a hair less so that its tangent is a number. */
-    const double least = 1e-7, c = fmax(cosine, least);
+    const double least = 1e-7, c = real_max(cosine, least);
     if (!(sine > 1e-13))
         return;
     const vec3d u = vec3d_any_normal(axis);

@@ -7,7 +7,7 @@
 /* Where x lies on a grid of LTC_SIDE points from 0 to 1: the point below, and how far behind it. */
 static int locate(double x, double *fraction)
 {
-    const double at = fmin(fmax(x, 0.0), 1.0) * (LTC_SIDE - 1);
+    const double at = real_min(real_max(x, 0.0), 1.0) * (LTC_SIDE - 1);
     const int i = at < LTC_SIDE - 1 ? (int)at : LTC_SIDE - 2;
     *fraction = at - i;
     return i;
@@ -16,7 +16,7 @@ static int locate(double x, double *fraction)
 ltc ltc_find(ndf_kind kind, double alpha, vec3d wo)
 {
     double s, t;
-    const int i = locate(sqrt(alpha), &s), j = locate(sqrt(fmax(0.0, 1.0 - wo.z) * (1.0 / 0.99)), &t);
+    const int i = locate(sqrt(alpha), &s), j = locate(sqrt(real_max(0.0, 1.0 - wo.z) * (1.0 / 0.99)), &t);
     const float(*table)[LTC_SIDE][LTC_NUMBERS] = ltc_table[kind == NDF_BECKMANN];
     double n[LTC_NUMBERS];
     for (int k = 0; k < LTC_NUMBERS; k++) {
@@ -27,9 +27,9 @@ ltc ltc_find(ndf_kind kind, double alpha, vec3d wo)
     /* x' = along (x cos - z sin) + shift z, x away from the viewer; y' = across y; z' = z. A view closer to the horizon
      * than the table goes has the table's last lobe. */
     const double sine = sqrt(wo.x * wo.x + wo.y * wo.y);
-    const double cosine = fmax(wo.z, 0.01), ex = sine > 0.0 ? -wo.x / sine : 1.0, ey = sine > 0.0 ? -wo.y / sine : 0.0;
+    const double cosine = real_max(wo.z, 0.01), ex = sine > 0.0 ? -wo.x / sine : 1.0, ey = sine > 0.0 ? -wo.y / sine : 0.0;
     const double along = n[0] * (cosine * cosine + alpha * alpha) / (2.0 * alpha * cosine);
-    const double a = along * cosine, b = n[1] * alpha / (2.0 * cosine) - along * fmin(sine, sqrt(1.0 - 1e-4));
+    const double a = along * cosine, b = n[1] * alpha / (2.0 * cosine) - along * real_min(sine, sqrt(1.0 - 1e-4));
     const double across = n[2] / (2.0 * alpha);
     ltc l = {
         .row = { { a * ex, a * ey, b }, { -across * ey, across * ex, 0.0 }, { 0.0, 0.0, 1.0 } },

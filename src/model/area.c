@@ -13,7 +13,7 @@ static void find_lit(const model_query *q, const area_facets *f, area_value *val
     const ndf n = lobe_ndf(q);
     /* A mean of unit vectors is no longer than one, unless what was summed is rounding. */
     const vec3d sum = { f->x, f->y, f->projected };
-    const double size = fmax(vec3d_length(sum), f->facets);
+    const double size = real_max(vec3d_length(sum), f->facets);
     if (size > 1e-100)
         value->h = vec3d_narrow(vec3d_scale(sum, 1.0 / size));
     const double lobe = (double)(ndf_facet_solid_angle(n.kind, o->facet_alpha) * value->h.z);
@@ -21,7 +21,7 @@ static void find_lit(const model_query *q, const area_facets *f, area_value *val
     double p = f->projected;
     if (o->weighting == GLINT_WEIGHTING_EQUAL_AREA)
         p = f->facets / (double)(q->total_area > 0.0F ? q->total_area : ndf_total_area(&n));
-    value->lit_probability = (float)fmin(p * wider, 1.0);
+    value->lit_probability = (float)real_min(p * wider, 1.0);
     value->cap = (float)(f->cap + lobe);
 }
 
@@ -52,7 +52,7 @@ static void integrate_base(const model_query *q, const area_light *light, area_v
             const double w = s * fabs(vec3d_dot(light->middle, vec3d_cross(rim, derivative))) / length2 * x.z / length2;
             weight += w;
             for (int c = 0; c < 3; c++)
-                sum[c] += w * (double)lobe_base_albedo(q, c, (float)fmin(fmax(height, 0.0), 1.0));
+                sum[c] += w * (double)lobe_base_albedo(q, c, (float)real_min(real_max(height, 0.0), 1.0));
         }
     for (int c = 0; c < 3 && weight > 0.0; c++)
         value->diffuse[c] = (float)(light->moment.z * (1.0 / REAL_PI) * sum[c] / weight);

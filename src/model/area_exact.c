@@ -53,9 +53,10 @@ static void add_spoke(const sweep_node *n, void *user)
         const double v = n->v + span * level_at[i];
         /* Slopes of GGX sqrt(1 - v^2) / v, of a Gaussian sqrt(-2 ln v). */
         const int is_ggx = s->distribution.kind == NDF_GGX;
-        const double run = is_ggx ? sqrt(fmax(0.0, (1.0 - v) * (1.0 + v))) : sqrt(-2.0 * real_log(fmax(v, 1e-300)));
+        const double run =
+            is_ggx ? sqrt(real_max(0.0, (1.0 - v) * (1.0 + v))) : sqrt(-2.0 * real_log(real_max(v, 1e-300)));
         const vec3d m = { (double)s->distribution.alpha_x * run * n->cosine,
-                          (double)s->distribution.alpha_y * run * n->sine, is_ggx ? fmax(v, 1e-300) : 1.0 };
+                          (double)s->distribution.alpha_y * run * n->sine, is_ggx ? real_max(v, 1e-300) : 1.0 };
         const double length = vec3d_length(m);
         /* D dh = (D (n.h) dh) / (n.h) = v dv dt / (pi (n.h)) */
         const double area = n->turn * span * level_weight[i] * v * (length / m.z) * (1.0 / REAL_PI);
@@ -81,10 +82,10 @@ void area_facets_exact(const model_query *q, const area_light *light, area_facet
     sweep_each(&seen, &map, add_spoke, &s);
     const double sign = s.sum.facets < 0.0 ? -1.0 : 1.0;
     *value = (area_facets){ .facets = sign * s.sum.facets,
-                            .projected = fmax(0.0, sign * s.sum.projected),
+                            .projected = real_max(0.0, sign * s.sum.projected),
                             .x = sign * s.sum.x,
                             .y = sign * s.sum.y,
                             .cap = fabs(s.sum.cap) };
     for (int c = 0; c < 3; c++)
-        value->specular[c] = fmax(0.0, sign * s.sum.specular[c]);
+        value->specular[c] = real_max(0.0, sign * s.sum.specular[c]);
 }

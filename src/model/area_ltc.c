@@ -17,8 +17,9 @@
 #define COARSE_SPREAD 1.3
 #define FINE_SPREAD 3.0
 
-/* Reflections below this, of about what a white diffuse surface shows, are not worth more points. Taste. */
-#define DARK 1e-4
+/* Reflections below this share of the light's own half vectors, about as much of what a white diffuse surface shows,
+ * are not worth more points. Taste. */
+#define DARK 3e-4
 
 /* The boundary by directions: corners, or for an ellipse the ends of its arcs. */
 static int find_corners(const area_light *l, vec3d corner[AREA_MOST_PIECES])
@@ -52,6 +53,7 @@ typedef struct quotients {
     int is_schlick;                       /* then fresnel[0] has f times (1 - h.wi)^5, which does for all channels */
     double weight, reflected, fresnel[3]; /* of f with F = 1; of f with F */
     double facets, x, y, z;               /* of D / (4 h.wi); of the same times h */
+    double cap;                           /* of half vectors, seen from above */
     double least, most;                   /* quotient of f */
 } quotients;
 
@@ -69,16 +71,18 @@ static void add_point(quotients *s, vec3d moved, double weight)
         return;
     const vec3 h = vec3_scale(sum, 1.0F / length);
     const float cosine = fminf(0.5F * length, 1.0F);
-    const double quotient = (double)ndf_density(&s->distribution, h) / ltc_density_over_cosine(l, w);
     /* G2 / (cos_o cos_i): neither vanishes at the horizon. */
     const float masked_i = ndf_masked(&s->distribution, wi);
-    const double cos_o = (double)wo.z, cos_i = (double)wi.z;
-    const double masking = 1.0 / (cos_o * cos_i + (double)s->masked_o * cos_i + (double)masked_i * cos_o);
-    s->least = fmin(s->least, 0.25 * quotient * masking);
-    s->most = fmax(s->most, 0.25 * quotient * masking);
-    const double share = weight * quotient;
-    const double reflected = 0.25 * share * masking, facets = share / (4.0 * (double)cosine * cos_i);
+    const double cos_o = (double)wo.z, cos_i = (double)wi.z, density = (double)ndf_density(&s->distribution, h);
+    const double masking = 0.25 / (cos_o * cos_i + (double)s->masked_o * cos_i + (double)masked_i * cos_o);
+    const double inverse = 1.0 / ltc_density_over_cosine(l, w), quotient = density * inverse * masking;
+    s->least = real_min(s->least, quotient);
+    s->most = real_max(s->most, quotient);
+    /* Solid angle of half vectors, over the share of the fitted lobe. */
+    const double solid_angle = weight * inverse / (4.0 * (double)cosine * cos_i);
+    const double reflected = weight * quotient, facets = solid_angle * density;
     s->weight += weight;
+    s->cap += solid_angle * (double)h.z;
     s->reflected += reflected;
     s->facets += facets;
     s->x += facets * (double)h.x;
@@ -115,7 +119,7 @@ static void add_points(quotients *s, const area_light *moved, int is_fine)
     vec3d corner[AREA_MOST_PIECES];
     const int count = find_corners(moved, corner);
     const vec3d m = moved->middle;
-    s->weight = s->reflected = s->facets = s->x = s->y = s->z = s->most = 0.0;
+    s->weight = s->reflected = s->facets = s->x = s->y = s->z = s->cap = s->most = 0.0;
     s->fresnel[0] = s->fresnel[1] = s->fresnel[2] = 0.0;
     s->least = 1e30;
     for (int i = 0; i < count; i++) {
@@ -133,42 +137,28 @@ static void add_points(quotients *s, const area_light *moved, int is_fine)
     }
 }
 
-/* The area of half vectors in the light, seen from above, by its corners. Those of a circle make a square in it. */
-static double cap_of(const area_light *light, vec3 wo)
-{
-    vec3d h[AREA_MOST_PIECES];
-    const int count = find_corners(light, h);
-    double sum = 0.0;
-    for (int i = 0; i < count; i++)
-        h[i] = vec3d_normalize(vec3d_add(h[i], vec3d_of(wo)));
-    for (int i = 0; i < count; i++) {
-        const int next = i + 1 < count ? i + 1 : 0;
-        sum += h[i].x * h[next].y - h[i].y * h[next].x;
-    }
-    return (light->kind == AREA_CONIC ? 0.25 * REAL_PI : 0.5) * fabs(sum);
-}
-
 void area_facets_fast(const model_query *q, const area_light *light, area_facets *value)
 {
     const ltc fit = ltc_find(lobe_ndf(q).kind, (double)q->surface->alpha_x, vec3d_of(q->wo));
     area_light moved;
-    *value = (area_facets){ .cap = cap_of(light, q->wo) };
+    *value = (area_facets){ .cap = 0.0 };
     if (!ltc_move(&fit, light, &moved))
         return;
     quotients s = { .q = q, .fit = &fit, .distribution = lobe_ndf(q) };
     s.is_schlick = q->material->options.fresnel == GLINT_FRESNEL_SCHLICK;
     s.masked_o = ndf_masked(&s.distribution, q->wo);
+    const double part = moved.moment.z * (1.0 / REAL_PI);
     add_points(&s, &moved, 0);
     if (s.most > COARSE_SPREAD * s.least) {
         add_points(&s, &moved, 1);
-        if (s.most > FINE_SPREAD * s.least && s.most * moved.moment.z > DARK * value->cap) {
+        if (s.most > FINE_SPREAD * s.least && s.most * s.weight > DARK * s.cap) {
             area_facets_exact(q, light, value);
             return;
         }
     }
     if (!(s.weight > 0.0) || !(s.reflected > 0.0) || !(s.facets > 0.0))
         return;
-    const double part = moved.moment.z * (1.0 / REAL_PI);
+    value->cap = part * s.cap / s.weight;
     /* The whole lobe's quotient is the scale from the table: the more of it is lit, the less the points have to say. */
     const double known = part * part * part * part;
     const double reflected = part * (known * fit.albedo + (1.0 - known) * s.reflected / s.weight);

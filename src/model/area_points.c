@@ -6,6 +6,7 @@
 
 #include "light/scatter.h"
 #include "math/float_bits.h"
+#include "math/real.h"
 #include "model/area.h"
 
 #define GLINT_LANES 1
@@ -109,7 +110,7 @@ void area_points_eval(const model_query *q, glint_value *value)
     if (!area_see(q, &light) || !area_measure(&light))
         return;
     const double size = scatter_density(&light, light.middle);
-    point_sum s = { q, &light, (float)fmin(1.0 / (POINTS * fmax(size, 1e-9)), 6.2), { 0.0 }, { 0.0 }, 0.0F };
+    point_sum s = { q, &light, (float)real_min(1.0 / (POINTS * real_max(size, 1e-9)), 6.2), { 0.0 }, { 0.0 }, 0.0F };
     uint32_t state = seed_of(q);
     for (int i = 0; i < POINTS; i++) {
         const float x = stratified(&state, i % SIDE, SIDE);

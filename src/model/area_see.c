@@ -25,9 +25,9 @@ static void see_sun(const glint_area_light *from, area_light *light)
     /* A cap of solid angle 2 pi (1 - cos). */
     const vec3d axis = vec3d_normalize(vec3d_from(from->center));
     const double versine = (double)clamp_to(from->solid_angle_sr, 0.0F, 6.28318531F) / (2.0 * REAL_PI);
-    const double sine = sqrt(fmax(0.0, versine * (2.0 - versine)));
+    const double sine = sqrt(real_max(0.0, versine * (2.0 - versine)));
     if (vec3d_dot(axis, axis) > 0.5)
-        area_make_round(light, axis, sine, fmax(0.0, 1.0 - versine));
+        area_make_round(light, axis, sine, real_max(0.0, 1.0 - versine));
 }
 
 static void see_polygon(const glint_area_light *from, area_light *light)
