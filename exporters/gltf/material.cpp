@@ -44,21 +44,20 @@ std::string object_with(const json_text &text, uint32_t object, const raw_member
     const std::string tail(old ? text.blanks_behind_last(object) : json_line_break(text.style(), level - 1));
     const std::string colon = text.style().space_after_colon ? ": " : ":";
     std::string out;
-    const auto add = [&](const std::string &name, std::string_view raw) {
-        out += (out.empty() ? "" : ",") + lead + json(name).dump() + colon;
-        out += raw;
+    const auto add = [&](std::string_view head, std::string_view raw) {
+        out.append(out.empty() ? "" : ",").append(lead).append(head).append(raw);
     };
     for (uint32_t n = old ? text.node(object).first_child : json_text::none; n != json_text::none;
          n = text.node(n).next) {
         const std::string name = text.name(n);
         if (const std::string *raw = find(set, name))
-            add(name, *raw);
+            add(text.head(n), *raw);
         else if (!drop(name))
-            add(name, text.value(n));
+            add(text.head(n), text.value(n));
     }
     for (const auto &[name, raw] : set)
         if (text.member(object, name) == json_text::none)
-            add(name, raw);
+            add(json(name).dump() + colon, raw);
     return "{" + out + (out.empty() ? "" : tail) + "}";
 }
 
