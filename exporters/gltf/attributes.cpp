@@ -147,6 +147,30 @@ std::vector<float> projected(const geometry &g, double metres_per_unit)
     return uv;
 }
 
+// ---- NORMAL ----
+
+// Without NORMAL glTF shades each triangle flat. Where all triangles of each vertex lie in one plane that can be
+// written down; elsewhere vertices would have to be split, and the result is empty.
+std::vector<float> flat_normals(const geometry &g)
+{
+    geometry split = g;
+    geometry_make_flat_normals(split);
+    std::vector<float> normals(g.position.size(), 0.0F);
+    std::vector<bool> seen(g.vertex_count);
+    for (size_t corner = 0; corner < g.index.size(); corner++) {
+        float *mine = &normals[3 * size_t{ g.index[corner] }];
+        const float *its = &split.normal[3 * corner];
+        if (!seen[g.index[corner]])
+            std::copy_n(its, 3, mine);
+        seen[g.index[corner]] = true;
+        constexpr float rounding = 1e-6F;
+        for (size_t k = 0; k < 3; k++)
+            if (!(std::fabs(mine[k] - its[k]) <= rounding))
+                return {};
+    }
+    return std::all_of(seen.begin(), seen.end(), [](bool used) { return used; }) ? normals : std::vector<float>();
+}
+
 // ---- TANGENT ----
 
 struct tangents {
@@ -241,7 +265,7 @@ class adder
             note(pointer, "has no " + attribute(n.glint_set) +
                               ", which the material's glints use; they are laid out in the object's space");
         if (n.tangent && !has("TANGENT"))
-            add_tangents(g, n, pointer);
+            add_tangents(g, n, !whole.primitives[primitive].targets.empty(), pointer);
     }
 
     // One warning for all primitives that something is said about.
@@ -292,11 +316,16 @@ class adder
         }
     }
 
-    void add_tangents(geometry &g, const needs &n, const std::string &pointer)
+    void add_tangents(geometry &g, const needs &n, bool morphs, const std::string &pointer)
     {
         int set = std::min(n.tangent_set, 1);
         if (g.texcoord[set].empty())
             set = 1 - set;
+        if (g.normal.empty() && !morphs) {
+            g.normal = flat_normals(g);
+            if (!g.normal.empty())
+                add("NORMAL", g.normal, "VEC3", 3);
+        }
         if (g.normal.empty()) {
             note(pointer, "gets no TANGENT, which the material uses: it has no NORMAL");
             return;

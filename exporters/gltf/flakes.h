@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-enum { FLAKES_SIDE = 256, FLAKES_COUNT = FLAKES_SIDE * FLAKES_SIDE };
+enum { FLAKES_SIDE = 256, FLAKES_COUNT = FLAKES_SIDE * FLAKES_SIDE, FLAKES_RINGS = 128 };
 
 typedef struct flakes_request {
     glint_distribution distribution;
@@ -27,10 +27,22 @@ typedef struct flakes_request {
     uint32_t seed;
 } flakes_request;
 
+/* Densities as functions of the angle with the normal. */
+typedef struct flakes_rings {
+    double edge[FLAKES_RINGS + 1];             /* slopes */
+    double angle[FLAKES_RINGS];                /* of the middles */
+    double wanted[FLAKES_RINGS];               /* D at the middles */
+    double weight[FLAKES_RINGS];               /* solid angle times cosine */
+    double mass[FLAKES_RINGS];                 /* of M in a ring */
+    double kernel[FLAKES_RINGS][FLAKES_RINGS]; /* [of h][of n] */
+} flakes_rings;
+
 typedef struct flakes {
     float alpha_rest;              /* what is left for the roughness of the material */
     float scale;                   /* normalTexture.scale: slopes are stored larger, so that eight bits suffice */
     uint8_t rgb[3 * FLAKES_COUNT]; /* row 0 on top */
+    flakes_rings work;             /* working memory */
+    uint32_t places[FLAKES_COUNT]; /* likewise: where each facet lies */
 } flakes;
 
 /* Returns false where facets are no narrower than the lobe, so that there is nothing to show. */
