@@ -20,6 +20,7 @@ enum class kind {
     index,      // into the array at `of`, a JSON pointer without its first slash
     choice,     // one of the strings, or integers, of `of`, separated by |
     numbers,    // array of numbers
+    triples,    // array of arrays of three numbers
     indices,    // array of distinct indices into the array at `of`
     texts,      // array of distinct strings
     object,     // as `schema` says
@@ -63,6 +64,7 @@ struct schema {
 // The tables: glTF 2.0 itself, then one function for the extensions of each kind of object.
 const schema &root_schema();
 const std::vector<extension> &root_extensions();
+const std::vector<extension> &scene_extensions();
 const std::vector<extension> &node_extensions();
 const std::vector<extension> &primitive_extensions();
 const std::vector<extension> &material_extensions();
@@ -79,6 +81,7 @@ property integer(const char *name, double low, double high);
 property index(const char *name, const char *of);
 property choice(const char *name, const char *of);
 property numbers(const char *name, size_t count, double low, double high);
+property triples(const char *name, size_t min_count, size_t max_count, double low, double high);
 property numbers_between(const char *name, size_t min_count, size_t max_count);
 property indices(const char *name, const char *of, size_t min_count);
 property texts(const char *name);

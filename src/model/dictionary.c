@@ -5,6 +5,7 @@
  * MIP hierarchy (Eqs. 12 to 16). The paper has no sampling; since D_P is even, the visible normals of V-cavities (Heitz
  * and d'Eon 2014) sample exactly what is evaluated.
  */
+#include "model/area_points.h"
 #include "model/dictionary_cell.h"
 #include "model/dictionary_patch.h"
 #include "model/lobe.h"
@@ -15,6 +16,7 @@
 #define GLINT_LANES 1
 #include "footprint/grid.h"
 #include "math/hash.h"
+#include "math/uniform.h"
 
 /* Below this h is so close to the horizon that slopes are longer than any facet's. */
 #define LEAST_COSINE 1e-6F
@@ -67,8 +69,8 @@ static void find_point(const model_query *q, int discrete, point *p)
 static point_density density_at(const point *p, const glint_material_options *o, vec3 h, float target)
 {
     point_density d = { { 0.0F, 0.0F, 0.0F }, p->smooth_share * target };
-    const tint_palette palette = tint_palette_of(o);
-    const int is_colored = palette.count > 0 || palette.variation > 0.0F;
+    const int is_colored = tint_is_asked(o);
+    const tint_palette palette = is_colored ? tint_palette_of(o) : (tint_palette){ 0 };
     const float cosine = fmaxf(h.z, LEAST_COSINE), cosine2 = cosine * cosine;
     const slope at = { -h.x / cosine, -h.y / cosine };
     float tinted[3] = { d.plain, d.plain, d.plain };
@@ -105,6 +107,10 @@ static float masking(const model_query *q, const lobe_value *lobe)
 
 static void dictionary_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        area_points_eval(q, value);
+        return;
+    }
     lobe_value lobe;
     lobe_eval(q, &lobe);
     const float coverage = q->material->options.coverage, g2 = masking(q, &lobe);
