@@ -47,18 +47,26 @@ void look_for_textures(const json &value, needs &n)
     }
 }
 
+void add_glints(const json &object, needs &n)
+{
+    const json glint = object.value(json::json_pointer(std::string("/extensions/") + glint_extension), json::object());
+    if (!(glint.value("glintFactor", 0.0) > 0.0) || glint.value("glintSpace", "uv") != "uv")
+        return;
+    n.glints_on_uv = n.tangent = true;
+    n.glint_set = glint.value("glintTexCoord", 0);
+    n.uv_scale = glint.value("glintUvScale", 1.0);
+}
+
 needs needs_of(const json &material)
 {
     needs n;
     look_for_textures(material, n);
     const json extensions = material.value("extensions", json::object());
-    const json glint = extensions.value(glint_extension, json::object());
     const json anisotropy = extensions.value("KHR_materials_anisotropy", json::object());
     const json coat = extensions.value("KHR_materials_clearcoat", json::object());
-    n.glints_on_uv = glint.value("glintFactor", 0.0) > 0.0 && glint.value("glintSpace", "uv") == "uv";
-    n.glint_set = glint.value("glintTexCoord", 0);
-    n.uv_scale = glint.value("glintUvScale", 1.0);
-    n.tangent = n.glints_on_uv || material.contains("normalTexture") || coat.contains("clearcoatNormalTexture") ||
+    add_glints(coat, n);
+    add_glints(material, n);
+    n.tangent = n.tangent || material.contains("normalTexture") || coat.contains("clearcoatNormalTexture") ||
                 anisotropy.value("anisotropyStrength", 0.0) > 0.0;
     if (material.contains("normalTexture"))
         n.tangent_set = set_of(material["normalTexture"]);

@@ -102,7 +102,7 @@ class baker
     {
         const scene &s = reading_.images_and_materials;
         for (int i = 0; i < s.material_count; i++)
-            if (s.materials[i].glint.present)
+            if (s.materials[i].glint.present || s.materials[i].coat_glint.present)
                 bake(i, s.materials[i]);
         for (const auto &[index, raw] : changed_)
             patch_.replace(patch_.text().element(materials_, index), raw);
@@ -118,53 +118,64 @@ class baker
     {
         const uint32_t n = patch_.text().element(materials_, static_cast<size_t>(index));
         material_text text = { std::string(patch_.text().value(n)), patch_.text().style(), 2 };
-        const bool coat = m.glint.layer == SCENE_LAYER_CLEARCOAT;
+        for (const scene_glint_layer layer : { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT })
+            if (const scene_glint *glint = scene_layer_glint(&m, layer))
+                bake_layer(text, m, *glint, index);
         material_remove(text, std::string("/extensions/") + glint_extension);
-        const bool has_map = (coat ? m.clearcoat_normal_texture : m.normal_texture).image != SCENE_NONE;
-        const auto map = std::make_unique<flakes>();
-        const flakes_request request = request_of(m, coat);
-        if (has_map)
-            reading_.file.warn(json_pointer("/materials", static_cast<size_t>(index)),
-                               "has a normal map, which the fallback keeps; its glints are left out there");
-        else if (m.glint.factor > 0.0F && flakes_make(&request, map.get()))
-            put_map(text, m, index, coat ? coat_target : base_target, *map);
+        material_remove(text, std::string("/extensions/KHR_materials_clearcoat/extensions/") + glint_extension);
         if (text.raw != patch_.text().value(n))
             changed_[static_cast<size_t>(index)] = text.raw;
     }
 
-    static flakes_request request_of(const scene_material &m, bool coat)
+    void bake_layer(material_text &text, const scene_material &m, const scene_glint &glint, int index)
     {
-        const scene_texels t = scene_texels_of(&m);
-        const glint_surface s = coat ? scene_coat_surface(&m, &t) : scene_base_surface(&m, &t);
-        return { m.glint.distribution,
-                 s.alpha_x,
-                 s.alpha_y,
-                 m.glint.facet_roughness * m.glint.facet_roughness,
-                 coat ? 0.0 : static_cast<double>(m.anisotropy_rotation),
-                 m.glint.seed };
+        const bool coat = glint.layer == SCENE_LAYER_CLEARCOAT;
+        if ((coat ? m.clearcoat_normal_texture : m.normal_texture).image != SCENE_NONE) {
+            reading_.file.warn(json_pointer("/materials", static_cast<size_t>(index)),
+                               "has a normal map, which the fallback keeps; its glints are left out there");
+            return;
+        }
+        const auto map = std::make_unique<flakes>();
+        const flakes_request request = request_of(m, glint);
+        if (glint.factor > 0.0F && flakes_make(&request, map.get()))
+            put_map(text, glint, index, coat ? coat_target : base_target, *map);
     }
 
-    void put_map(material_text &text, const scene_material &m, int index, const target &to, const flakes &map)
+    static flakes_request request_of(const scene_material &m, const scene_glint &glint)
+    {
+        const bool coat = glint.layer == SCENE_LAYER_CLEARCOAT;
+        const scene_texels t = scene_texels_of(&m);
+        const glint_surface s = coat ? scene_coat_surface(&m, &t) : scene_base_surface(&m, &t);
+        return { glint.distribution,
+                 s.alpha_x,
+                 s.alpha_y,
+                 glint.facet_roughness * glint.facet_roughness,
+                 coat ? 0.0 : static_cast<double>(m.anisotropy_rotation),
+                 glint.seed };
+    }
+
+    void put_map(material_text &text, const scene_glint &glint, int index, const target &to, const flakes &map)
     {
         const std::vector<uint8_t> png = png_bytes(map.rgb, FLAKES_SIDE, FLAKES_SIDE);
         // Unfiltered texels keep the lobe at every distance; their mean would be flat.
         constexpr int nearest = 9728;
         const size_t texture = packer_.texture(png, { { "magFilter", nearest }, { "minFilter", nearest } });
         const double width =
-            1.0 / std::sqrt(static_cast<double>(m.glint.density) * static_cast<double>(m.glint.elongation));
-        const double unit = m.glint.space == SCENE_SPACE_UV ? static_cast<double>(m.glint.uv_scale)
-                                                            : meter_.metres_per_unit(index, m.glint.texcoord);
-        const double across = unit / (FLAKES_SIDE * width), along = across / static_cast<double>(m.glint.elongation);
+            1.0 / std::sqrt(static_cast<double>(glint.density) * static_cast<double>(glint.elongation));
+        const double unit = glint.space == SCENE_SPACE_UV ? static_cast<double>(glint.uv_scale)
+                                                          : meter_.metres_per_unit(index, glint.texcoord);
+        const double across = unit / (FLAKES_SIDE * width), along = across / static_cast<double>(glint.elongation);
         material_put(text, to.normal,
-                     "{\"index\":" + std::to_string(texture) + ",\"texCoord\":" + std::to_string(m.glint.texcoord) +
+                     "{\"index\":" + std::to_string(texture) + ",\"texCoord\":" + std::to_string(glint.texcoord) +
                          ",\"scale\":" + number(static_cast<double>(map.scale)) +
                          ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[" + number(along) + "," +
                          number(across) + "]}}}");
         material_put(text, to.roughness, number(std::sqrt(static_cast<double>(map.alpha_rest))));
-        // The map has both roughnesses in it.
-        material_remove(text, "/extensions/KHR_materials_anisotropy");
+        // The map has both roughnesses of the base in it.
+        if (glint.layer == SCENE_LAYER_BASE)
+            material_remove(text, "/extensions/KHR_materials_anisotropy");
         patch_.use_extension("KHR_texture_transform");
-        done_.push_back({ { "index", index }, { "name", m.name } });
+        done_.push_back({ { "index", index }, { "layer", glint.layer == SCENE_LAYER_BASE ? "base" : "clearcoat" } });
     }
 
     export_container &file_;

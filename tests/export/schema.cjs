@@ -23,7 +23,7 @@ const texture = { index: 0 };
 const valid = [
     {}, { glintFactor: 0 }, { glintFactor: 1, glintTexture: texture }, { glintDistribution: 'beckmann' }, { glintDensity: 1e-3 },
     { glintDensityTexture: { index: 0, texCoord: 1 } }, { glintFacetRoughness: 1 }, { glintColorFactor: [0, 0.5, 1] },
-    { glintColorTexture: texture }, { glintColorVariation: 1 }, { glintElongation: 1 }, { glintCoverage: 0 },
+    { glintColorTexture: texture }, { glintColorVariation: 1 }, { glintColors: [[1, 0, 0.5]] }, { glintElongation: 1 }, { glintCoverage: 0 },
     { glintDensityVariation: 0 }, { glintSpace: 'object' }, { glintTexCoord: 1 }, { glintUvScale: 0.01 },
     { glintLayer: 'clearcoat' }, { glintSeed: 2147483647 }, { glintStructure: 'example', glintExampleTexture: texture },
     { glintExamplePlacement: 'scattered' }, { glintExampleSize: 1 }, { somethingElse: 1 }, { extras: 1 },
@@ -34,7 +34,8 @@ const invalid = [
     { glintTexture: { index: 0.5 } }, { glintDistribution: 'GGX' }, { glintDistribution: 1 }, { glintDensity: 0 },
     { glintDensity: null }, { glintDensityTexture: [] }, { glintFacetRoughness: 1.5 }, { glintColorFactor: [1, 1] },
     { glintColorFactor: [1, 1, 1, 1] }, { glintColorFactor: [1, 1, 2] }, { glintColorFactor: 1 }, { glintColorTexture: 0 },
-    { glintColorVariation: -1 }, { glintElongation: 0.5 }, { glintCoverage: 2 }, { glintDensityVariation: -1 },
+    { glintColorVariation: -1 }, { glintColors: [] }, { glintColors: [[1, 0]] }, { glintColors: [[2, 0, 0]] },
+    { glintColors: Array(9).fill([1, 1, 1]) }, { glintElongation: 0.5 }, { glintCoverage: 2 }, { glintDensityVariation: -1 },
     { glintSpace: 'world' }, { glintTexCoord: 2 }, { glintTexCoord: 0.5 }, { glintUvScale: 0 }, { glintLayer: 'coat' },
     { glintSeed: -1 }, { glintSeed: 2147483648 }, { glintSeed: 1.5 }, { glintStructure: 'scratches' },
     { glintStructure: 'example' }, { glintExampleTexture: true }, { glintExamplePlacement: 'random' }, { glintExampleSize: 0 },

@@ -22,5 +22,5 @@ for density in 7e8 7e6 7e4; do
 done
 picture elongation-1 auto brushed-steel /glintElongation=1 /glintDensity=2e6
 picture elongation-50 auto brushed-steel /glintElongation=50 /glintDensity=2e6
-picture variation-0 dictionary craft-glitter /glintDensityVariation=0
-picture variation-1.5 dictionary craft-glitter /glintDensityVariation=1.5
+picture facet-0.02 auto craft-glitter /glintFacetRoughness=0.02
+picture facet-0.4 auto craft-glitter /glintFacetRoughness=0.4
