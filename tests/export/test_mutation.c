@@ -7,8 +7,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "gltf_case.h"
 #include "glint_export.h"
+#include "gltf_case.h"
 #include "io/validate.h"
 
 #define MODELS "/usr/share/assimp/models/glTF2/"
@@ -57,10 +57,12 @@ static bytes splice(bytes from, size_t at, size_t length, const void *by, size_t
 }
 
 /* What JSON is made of, and names that this code looks for. */
-static const char *const words[] = { "{",     "}",    "[",       "]",       ",",          ":",      "\"",
-                                     "null",  "-1",   "0",       "1e400",   "4294967296", "\\u0000", "extensions",
-                                     "extras", "export", "added", "replaced", "binBytes",  "GLINT_materials_glint",
-                                     "materials", "name", "[]", "{}", "\"/materials/0\"", "\"\"", " " };
+static const char *const words[] = { "{",         "}",          "[",        "]",          ",",
+                                     ":",         "\"",         "null",     "-1",         "0",
+                                     "1e400",     "4294967296", "\\u0000",  "extensions", "extras",
+                                     "export",    "added",      "replaced", "binBytes",   "GLINT_materials_glint",
+                                     "materials", "name",       "[]",       "{}",         "\"/materials/0\"",
+                                     "\"\"",      " " };
 
 /* Half of the changes hit the JSON, which lies in front. */
 static bytes mutate(bytes b)
