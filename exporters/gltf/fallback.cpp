@@ -9,6 +9,7 @@
 #include "exporters/gltf/flakes.h"
 #include "exporters/gltf/material.hpp"
 #include "exporters/gltf/png.hpp"
+#include "io/scene_bounds.h"
 #include "scene/surface.h"
 
 namespace
@@ -32,7 +33,7 @@ class unit_meter
                 continue;
             for (uint32_t t = 0; t < mesh.triangle_count; t++) {
                 const uint32_t *corners = &mesh.index[3 * static_cast<size_t>(t)];
-                world += area(mesh, corners, instance.to_world);
+                world += scene_triangle_area(&scene_, &instance, t);
                 texture += area_in_texture(mesh.texcoord[set], corners);
             }
         }
@@ -40,25 +41,6 @@ class unit_meter
     }
 
   private:
-    static double area(const scene_mesh &mesh, const uint32_t *corners, const float *m)
-    {
-        double edge[2][3];
-        for (size_t e = 0; e < 2; e++)
-            for (size_t k = 0; k < 3; k++) {
-                edge[e][k] = 0.0;
-                for (size_t j = 0; j < 3; j++)
-                    edge[e][k] += static_cast<double>(m[4 * j + k]) *
-                                  (static_cast<double>(mesh.position[3 * size_t{ corners[e + 1] } + j]) -
-                                   static_cast<double>(mesh.position[3 * size_t{ corners[0] } + j]));
-            }
-        double n[3];
-        for (size_t k = 0; k < 3; k++) {
-            const size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            n[k] = edge[0][a] * edge[1][b] - edge[0][b] * edge[1][a];
-        }
-        return std::hypot(n[0], n[1], n[2]);
-    }
-
     static double area_in_texture(const float *uv, const uint32_t *corners)
     {
         double edge[2][2];
@@ -66,7 +48,7 @@ class unit_meter
             for (size_t k = 0; k < 2; k++)
                 edge[e][k] = static_cast<double>(uv[2 * size_t{ corners[e + 1] } + k]) -
                              static_cast<double>(uv[2 * size_t{ corners[0] } + k]);
-        return std::fabs(edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]);
+        return 0.5 * std::fabs(edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]);
     }
 
     const scene &scene_;

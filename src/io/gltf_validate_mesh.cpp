@@ -1,9 +1,11 @@
 // Rules for GLINT_materials_glint that need the meshes: what attributes a material uses, and how many facets fit.
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <vector>
 
 #include "io/gltf_validate.hpp"
+#include "io/scene_bounds.h"
 
 namespace
 {
@@ -13,6 +15,13 @@ constexpr double picture_width = 3840.0;
 // One step of eight bits.
 constexpr double least_contrast = 1.0 / 255.0;
 constexpr double sun_sr = 6.8e-5; // solid angle of the sun
+
+std::string text_of(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
 
 const json &attributes_of(const json &root, const std::string &mesh)
 {
@@ -75,32 +84,13 @@ void check_tangents(const json &root, const layer &l, const scene_material &m, c
 
 // ---- densities ----
 
-double triangle_area(const scene_mesh &mesh, const float *m, uint32_t triangle)
-{
-    double p[3][3];
-    for (int corner = 0; corner < 3; corner++) {
-        const float *v =
-            &mesh.position[3 * static_cast<size_t>(mesh.index[3 * static_cast<size_t>(triangle) + corner])];
-        for (int k = 0; k < 3; k++)
-            p[corner][k] = static_cast<double>(m[k]) * static_cast<double>(v[0]) +
-                           static_cast<double>(m[4 + k]) * static_cast<double>(v[1]) +
-                           static_cast<double>(m[8 + k]) * static_cast<double>(v[2]);
-    }
-    double n[3];
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        n[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
-    }
-    return 0.5 * std::hypot(n[0], n[1], n[2]);
-}
-
 double area_of_material(const scene &s, int material)
 {
     double area = 0.0;
     for (int i = 0; i < s.instance_count; i++) {
         const scene_mesh &mesh = s.meshes[s.instances[i].mesh];
         for (uint32_t t = 0; mesh.material == material && t < mesh.triangle_count; t++)
-            area += triangle_area(mesh, s.instances[i].to_world, t);
+            area += scene_triangle_area(&s, &s.instances[i], t);
     }
     return area;
 }
@@ -123,8 +113,8 @@ void check_density(const scene &s, int material, const layer &l, issue_list &iss
     if (!(area > 0.0))
         return;
     if (density * area * static_cast<double>(l.glint.coverage) < 1.0)
-        issues.add(VALIDATE_WARNING, "DENSITY_EMPTY", pointer, json(density).dump(),
-                   "at least " + json(1.0 / area).dump() + ", one facet on the " + json(area).dump() +
+        issues.add(VALIDATE_WARNING, "DENSITY_EMPTY", pointer, text_of(density),
+                   "at least " + text_of(1.0 / area) + ", one facet on the " + text_of(area) +
                        " m^2 that have the material");
     // N facets a pixel, each lit with p, vary by sqrt((1 - p) / (N p)) around their mean.
     const double pixel = scene_size(s) / picture_width,
@@ -134,9 +124,9 @@ void check_density(const scene &s, int material, const layer &l, issue_list &iss
     const double lit = std::min(1.0, sun_sr / (4.0 * 3.14159265358979323846 * alpha * alpha + 1e-12));
     const double contrast = std::sqrt((1.0 - lit) / (density * pixel * pixel * lit));
     if (contrast < least_contrast)
-        issues.add(VALIDATE_WARNING, "DENSITY_UNRESOLVED", pointer, json(density).dump(),
+        issues.add(VALIDATE_WARNING, "DENSITY_UNRESOLVED", pointer, text_of(density),
                    "fewer: where the scene fills a picture of 3840 pixels under the sun, pixels differ by " +
-                       json(contrast).dump() + " of their mean, less than eight bits show");
+                       text_of(contrast) + " of their mean, less than eight bits show");
 }
 
 } // namespace
