@@ -32,7 +32,9 @@ const char *arguments_model_choice(int index)
 {
     if (index == 0)
         return "auto";
-    return glint_model_name((glint_model)(index - 1));
+    /* Layers, the last, are what a material has and not what it is shown with. */
+    const glint_model model = (glint_model)(index - 1);
+    return model == GLINT_MODEL_LAYERED ? NULL : glint_model_name(model);
 }
 
 static int wrong(const argument_syntax *syntax, const char *format, va_list list)

@@ -53,7 +53,8 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    const glint_model model = values->model == 0 ? scene_model_of(&m) : (glint_model)(values->model - 1);
+    const glint_model model =
+        values->model == 0 ? scene_model_of(&m, SCENE_LAYER_BASE) : (glint_model)(values->model - 1);
     glint_material_options options = scene_base_options(&m, model);
     float *normals = NULL;
     if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)
@@ -66,7 +67,7 @@ static glint_material *open_material(const eval_values *values, report *r)
                        values->material);
     glint_material *material = NULL;
     char message[256] = "";
-    if ((options.model != GLINT_MODEL_EXAMPLE || example_map_open(&s, &m, &options, &normals, r)) &&
+    if ((options.model != GLINT_MODEL_EXAMPLE || example_map_open(&s, &m.glint, &options, &normals, r)) &&
         glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
         report_error(r, "%s: %s", values->material, message);
     free(normals);

@@ -95,9 +95,8 @@ static bool set_options(const scene_glint *g, glint_example *e, const char *name
     return place(&g->example_texture, e, name, r);
 }
 
-bool example_map_open(const scene *s, const scene_material *m, glint_material_options *o, float **normals, report *r)
+bool example_map_open(const scene *s, const scene_glint *g, glint_material_options *o, float **normals, report *r)
 {
-    const scene_glint *g = &m->glint;
     *normals = NULL;
     if (g->structure != SCENE_STRUCTURE_EXAMPLE || g->example_texture.image == SCENE_NONE)
         return true;

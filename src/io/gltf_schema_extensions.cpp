@@ -1,4 +1,5 @@
 // The properties of the extensions that the reader knows, each from its own text at Khronos, and GLINT_materials_glint.
+#include "glint.h"
 #include "io/gltf_schema.hpp"
 
 namespace gltf
@@ -103,6 +104,7 @@ schema glint_schema()
                numbers("glintColorFactor", 3, 0.0, 1.0),
                object("glintColorTexture", texture_info_schema()),
                number("glintColorVariation", 0.0, 1.0),
+               triples("glintColors", 1, GLINT_MAX_COLORS, 0.0, 1.0),
                number("glintElongation", 1.0, infinity),
                number("glintCoverage", 0.0, 1.0),
                number("glintDensityVariation", 0.0, infinity),

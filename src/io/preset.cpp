@@ -75,11 +75,12 @@ json preset_material(const std::string &path)
 
 std::vector<scene_texture *> textures_of(scene_material *m)
 {
-    return { &m->base_color_texture,          &m->metallic_roughness_texture, &m->normal_texture,
-             &m->occlusion_texture,           &m->emissive_texture,           &m->specular_texture,
-             &m->specular_color_texture,      &m->anisotropy_texture,         &m->clearcoat_texture,
-             &m->clearcoat_roughness_texture, &m->clearcoat_normal_texture,   &m->glint.texture,
-             &m->glint.density_texture,       &m->glint.color_texture,        &m->glint.example_texture };
+    const scene_texture *list[SCENE_MATERIAL_TEXTURES];
+    scene_material_textures(m, list);
+    std::vector<scene_texture *> all;
+    for (const scene_texture *texture : list)
+        all.push_back(const_cast<scene_texture *>(texture)); // of m, which may be changed
+    return all;
 }
 
 // Moves the images of a preset behind those of the scene and the material with them.

@@ -172,6 +172,12 @@ static inline vfloat floor_f(vfloat x)
     return __builtin_floorf(x);
 }
 
+/* table[index], a table of eight. */
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return table[index];
+}
+
 #else
 
 static inline vfloat splat(float x)
@@ -256,6 +262,11 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return (vfloat)_mm512_permutexvar_ps((__m512i)index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
+}
+
 #elif GLINT_LANES == 8 && defined(__AVX2__)
 
 static inline int any(vmask m)
@@ -271,6 +282,11 @@ static inline vfloat sqrt_f(vfloat x)
 static inline vfloat floor_f(vfloat x)
 {
     return (vfloat)_mm256_floor_ps((__m256)x);
+}
+
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return (vfloat)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
 }
 
 #elif GLINT_LANES == 4 && defined(__SSE4_1__)
@@ -333,6 +349,18 @@ static inline vfloat floor_f(vfloat x)
     for (int i = 0; i < GLINT_LANES; i++)
         x[i] = __builtin_floorf(x[i]);
     return x;
+}
+
+#endif
+
+#if !(GLINT_LANES == 16 && defined(__AVX512F__)) && !(GLINT_LANES == 8 && defined(__AVX2__))
+
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    vfloat v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++)
+        v[i] = table[index[i]];
+    return v;
 }
 
 #endif

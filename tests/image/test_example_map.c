@@ -28,7 +28,7 @@ static opened open_with(scene_material m, bytes encoded)
     const scene s = { .images = &picture, .image_count = 1, .materials = &m, .material_count = 1 };
     const glint_material_options defaults = GLINT_MATERIAL_OPTIONS_INIT;
     opened o = { .options = defaults };
-    o.done = example_map_open(&s, &m, &o.options, &o.normals, &o.said);
+    o.done = example_map_open(&s, &m.glint, &o.options, &o.normals, &o.said);
     free(encoded.data);
     return o;
 }
@@ -192,7 +192,7 @@ static void hostile_pictures_do_no_harm(void **state)
     glint_material_options options = GLINT_MATERIAL_OPTIONS_INIT;
     float *normals;
     report said = { 0 };
-    assert_false(example_map_open(&s, &m, &options, &normals, &said));
+    assert_false(example_map_open(&s, &m.glint, &options, &normals, &said));
     assert_non_null(strstr(said.error, "map.png"));
 }
 
