@@ -63,23 +63,24 @@ static int covers(const seed_instance *n, const double at[2])
 static const double FARTHEST = 1.07;
 
 /* Those that may lie over a part of an instance. */
-static size_t find_rivals(const seed_instance *all, size_t count, size_t self, const seed_instance **rivals)
+static size_t find_rivals(const seed_instance *all, size_t count, size_t self, size_t *rivals)
 {
     size_t found = 0;
     for (size_t k = 0; k < count; k++)
         if (k != self && !all[k].is_ground && fabs(all[k].at[0] - all[self].at[0]) < 2.0 * FARTHEST &&
             fabs(all[k].at[1] - all[self].at[1]) < 2.0 * FARTHEST)
-            rivals[found++] = &all[k];
+            rivals[found++] = k;
     return found;
 }
 
-static int is_seen(const seed_instance *self, const seed_instance *const *rivals, size_t count, const double at[2])
+static int is_seen(const seed_instance *all, size_t self, const size_t *rivals, size_t count, const double at[2])
 {
-    const double own = hypot(at[0] - self->at[0], at[1] - self->at[1]);
-    for (size_t k = 0; k < count; k++)
-        if ((self->is_ground || hypot(at[0] - rivals[k]->at[0], at[1] - rivals[k]->at[1]) < own) &&
-            covers(rivals[k], at))
+    const double own = hypot(at[0] - all[self].at[0], at[1] - all[self].at[1]);
+    for (size_t k = 0; k < count; k++) {
+        const seed_instance *r = &all[rivals[k]];
+        if ((all[self].is_ground || hypot(at[0] - r->at[0], at[1] - r->at[1]) < own) && covers(r, at))
             return 0;
+    }
     return 1;
 }
 
@@ -88,7 +89,7 @@ seed_surface seed_surface_export(const glint_example *e, double sigma_r, const s
     const int n = (int)e->size;
     const int tiled = e->placement == GLINT_EXAMPLE_TILED;
     seed_surface s = { malloc(count * (size_t)(n * n) * sizeof(seed_gaussian)), 0 };
-    const seed_instance **rivals = malloc(count * sizeof(*rivals));
+    size_t *rivals = malloc(count * sizeof(*rivals));
     for (size_t k = 0; k < count; k++) {
         const size_t rival_count = tiled ? 0 : find_rivals(instances, count, k, rivals);
         for (int i = 0; i < n * n; i++) {
@@ -97,7 +98,7 @@ seed_surface seed_surface_export(const glint_example *e, double sigma_r, const s
             const double px = (x + 0.5) / n - 0.5, py = (y + 0.5) / n - 0.5;
             seed_gaussian g = { .at = { instances[k].at[0] + m.xx * px + m.xy * py,
                                         instances[k].at[1] + m.yx * px + m.yy * py } };
-            if (!tiled && !is_seen(&instances[k], rivals, rival_count, g.at))
+            if (!tiled && !is_seen(instances, k, rivals, rival_count, g.at))
                 continue;
             if (!instances[k].is_ground) {
                 double slope[2];
@@ -123,8 +124,11 @@ void seed_surface_slope(const glint_example *e, const seed_instance *instances, 
     const seed_instance *owner = NULL;
     double best = 1e30;
     for (size_t k = 0; k < count; k++) {
-        const double away = hypot(at[0] - instances[k].at[0], at[1] - instances[k].at[1]);
-        if (!instances[k].is_ground && away < best && covers(&instances[k], at)) {
+        const double x = at[0] - instances[k].at[0], y = at[1] - instances[k].at[1];
+        if (instances[k].is_ground || fabs(x) > FARTHEST || fabs(y) > FARTHEST)
+            continue;
+        const double away = hypot(x, y);
+        if (away < best && covers(&instances[k], at)) {
             best = away;
             owner = &instances[k];
         }
