@@ -53,8 +53,7 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    const glint_model model =
-        values->model == 0 ? scene_model_of(&m, SCENE_LAYER_BASE) : (glint_model)(values->model - 1);
+    const glint_model model = values->model == 0 ? scene_model_of(&m.glint) : (glint_model)(values->model - 1);
     glint_material_options options = scene_base_options(&m, model);
     float *normals = NULL;
     if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)

@@ -51,6 +51,35 @@ static void warn_of_missing_texcoords(const scene *s, scene_glint_layer layer, r
     }
 }
 
+/* Those of another renderer: its hash of the cells of a flat grid. */
+static void choose_facets(preview_facets facets, glint_material_options *o)
+{
+    if (facets == PREVIEW_FACETS_OWN)
+        return;
+    o->weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
+    o->facet_hash = facets == PREVIEW_FACETS_POVRAY ? GLINT_FACET_HASH_POVRAY : GLINT_FACET_HASH_CYCLES;
+}
+
+/* One layer before its material is made. The normals are what options.example.normals points to. */
+typedef struct layer_plan {
+    glint_material_options options;
+    float *normals;
+} layer_plan;
+
+static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
+{
+    const scene *const s = all->scene;
+    const scene_material *const m = &s->materials[index];
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    glint_model wanted = (glint_model)model;
+    if (model == PREVIEW_MODEL_AUTO)
+        wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
+    warn_of_unrendered(s, index, g, wanted, r);
+    out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
+    choose_facets(all->facets, &out->options);
+    return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
+}
+
 static bool shows_facets(const glint_material *layer)
 {
     return (glint_material_features(layer) & GLINT_FEATURE_DISCRETE) != 0;
@@ -70,54 +99,39 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-/* The normal map of a layer, if its model shows one. */
-static bool open_map(const scene *s, const scene_material *m, scene_glint_layer layer, glint_material_options *options,
-                     float **normals, report *r)
+static bool make_layers(const materials *all, int index, int model, material_layers *out, report *r)
 {
-    return options->model != GLINT_MODEL_EXAMPLE ||
-           example_map_open(s, scene_layer_glint(m, layer), options, normals, r);
-}
-
-static bool make_layers(const scene *s, int index, const glint_model models[2], material_layers *out, report *r)
-{
-    const scene_material *const m = &s->materials[index];
-    glint_material_options base = scene_base_options(m, models[0]);
-    glint_material_options coat = scene_coat_options(m, models[1]);
-    float *normals[2] = { NULL, NULL };
-    bool done = open_map(s, m, SCENE_LAYER_BASE, &base, &normals[0], r);
-    out->base_mapped = normals[0] != NULL;
-    if (!(m->clearcoat > 0.0F)) {
-        done = done && make(s, index, &base, out, r);
-    } else {
-        done = done && open_map(s, m, SCENE_LAYER_CLEARCOAT, &coat, &normals[1], r);
-        out->coat_mapped = normals[1] != NULL;
+    const scene *const s = all->scene;
+    const bool is_coated = s->materials[index].clearcoat > 0.0F;
+    layer_plan base = { 0 }, coat = { 0 };
+    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, &base, r) &&
+                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
+    if (done && is_coated) {
         glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
         whole.model = GLINT_MODEL_LAYERED;
-        whole.layers.base = &base;
-        whole.layers.coat = &coat;
-        done = done && make(s, index, &whole, out, r);
+        whole.layers.base = &base.options;
+        whole.layers.coat = &coat.options;
+        done = make(s, index, &whole, out, r);
+    } else if (done) {
+        done = make(s, index, &base.options, out, r);
     }
-    free(normals[0]);
-    free(normals[1]);
+    out->base_mapped = base.normals != NULL;
+    out->coat_mapped = coat.normals != NULL;
+    free(base.normals);
+    free(coat.normals);
     return done;
 }
 
-bool materials_make(const scene *s, int model, materials *out, report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r)
 {
-    static const scene_glint_layer layers[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
-    *out = (materials){ .scene = s };
+    *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
     out->layers = calloc(count, sizeof *out->layers);
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
     for (int i = 0; i < s->material_count; ++i) {
-        glint_model models[2];
-        for (int k = 0; k < 2; ++k) {
-            models[k] = model == PREVIEW_MODEL_AUTO ? scene_model_of(&s->materials[i], layers[k]) : (glint_model)model;
-            warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], layers[k]), models[k], r);
-        }
-        if (!make_layers(s, i, models, &out->layers[i], r)) {
+        if (!make_layers(out, i, model, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

@@ -103,12 +103,11 @@ glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t)
     return s;
 }
 
-glint_model scene_model_of(const scene_material *m, scene_glint_layer layer)
+glint_model scene_model_of(const scene_glint *g)
 {
-    const scene_glint *const g = scene_layer_glint(m, layer);
-    if (g != NULL && g->structure == SCENE_STRUCTURE_EXAMPLE)
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
         return GLINT_MODEL_EXAMPLE;
-    return g != NULL && g->density_variation > 0.0F ? GLINT_MODEL_DICTIONARY : GLINT_MODEL_COUNTING;
+    return g->density_variation > 0.0F ? GLINT_MODEL_DICTIONARY : GLINT_MODEL_COUNTING;
 }
 
 void scene_forget_directions(glint_surface *s)

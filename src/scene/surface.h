@@ -30,7 +30,7 @@ glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t)
 
 /* The model that shows what a layer asks for: example for a normal map, dictionary for a density that varies, counting
  * otherwise. */
-glint_model scene_model_of(const scene_material *m, scene_glint_layer layer);
+glint_model scene_model_of(const scene_glint *g);
 
 /* A map of normals has its own directions: of the roughness only the size counts, which stretches its slopes. */
 void scene_forget_directions(glint_surface *s);
