@@ -153,7 +153,7 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
  * over and bumps are dents. */
 static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g, float choice, vec3 wo)
 {
-    vec3 u, v;
+    vec3 u = v3(0.0, 0.0, 0.0), v = u;
     scene_forget_directions(&layer->surface);
     place_axes(g, h, choice, &u, &v);
     if (!(v3_dot(u, u) > 0.0))
