@@ -104,12 +104,8 @@ static bool set_lights(stage *st, const preview_options *o, const scene_camera *
     if (st->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
     st->world.lights = st->lights;
-    for (int i = 0; i < count; ++i) {
-        if (from[i].kind == SCENE_LIGHT_RECT || from[i].kind == SCENE_LIGHT_DISK)
-            report_warning(r, "light \"%s\": area lights are not rendered", from[i].name);
-        else
-            st->lights[st->world.light_count++] = light_make(&from[i]);
-    }
+    for (int i = 0; i < count; ++i)
+        st->lights[st->world.light_count++] = light_make(&from[i]);
     for (int i = 0; i < st->environment.sun_count; ++i)
         st->lights[st->world.light_count++] = light_make(&st->environment.suns[i]);
     return true;

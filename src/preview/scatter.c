@@ -46,6 +46,15 @@ bool shade_faces(const shade_point *p, vec3 wi)
     return false;
 }
 
+static void keep_facets(const shade_layer *layer, const glint_value *from, glint_value *to)
+{
+    if (!layer->counts)
+        return;
+    to->facet_count = from->facet_count;
+    to->lit_probability = from->lit_probability;
+    to->over_limit = from->over_limit;
+}
+
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
 {
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
@@ -61,13 +70,63 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
             value->rgb[c] += layer->weight * one.rgb[c];
             value->smooth[c] += layer->weight * one.smooth[c];
         }
-        if (layer->counts) {
-            value->facet_count = one.facet_count;
-            value->lit_probability = one.lit_probability;
-            value->over_limit = one.over_limit;
-        }
+        keep_facets(layer, &one, value);
     }
 }
+
+/* ---- flat lights ---- */
+
+static void set_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
+{
+    *to = (glint_area_light){ .kind = from->kind, .hidden = from->hidden };
+    to_local(layer, from->center, to->center);
+    to_local(layer, from->half_x, to->half_x);
+    to_local(layer, from->half_y, to->half_y);
+}
+
+void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value)
+{
+    *value = (glint_value){ 0 };
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        glint_area_light light;
+        glint_value one;
+        set_local(layer, area, &light);
+        glint_eval_area(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, &light,
+                        &one);
+        for (int c = 0; c < 3; ++c) {
+            value->rgb[c] += layer->weight * one.rgb[c];
+            value->smooth[c] += layer->weight * one.smooth[c];
+        }
+        keep_facets(layer, &one, value);
+    }
+}
+
+bool shade_faces_area(const shade_point *p, const shade_area *area)
+{
+    for (int i = 0; i < p->layer_count; ++i) {
+        const vec3 z = p->layers[i].z;
+        const double highest = v3_dot(area->center, z) + fabs(v3_dot(area->half_x, z)) + fabs(v3_dot(area->half_y, z));
+        if (p->layers[i].wo[2] > 0.0F && highest > 0.0)
+            return true;
+    }
+    return false;
+}
+
+float shade_level(const shade_point *p, vec3 wi)
+{
+    float sum = 0.0F;
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        float local[3], rgb[3];
+        to_local(layer, wi, local);
+        glint_eval(layer->material, &layer->surface, NULL, layer->wo, local, NULL, rgb);
+        sum += layer->weight * (rgb[0] + rgb[1] + rgb[2]) / 3.0F;
+    }
+    return sum;
+}
+
+/* ---- sampling ---- */
 
 /* A guess of how much a layer reflects, which only steers the choice between layers. */
 static float importance(const shade_layer *layer)
@@ -99,6 +158,19 @@ static glint_surface surface_in_surroundings(const shade_point *p, const shade_l
     for (int c = 0; c < 3; ++c)
         surface.diffuse[c] *= p->occlusion;
     return surface;
+}
+
+float shade_pdf(const shade_point *p, vec3 wi)
+{
+    float sum = 0.0F;
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3];
+        to_local(layer, wi, local);
+        sum += share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+    }
+    return sum;
 }
 
 bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
@@ -138,15 +210,6 @@ static void eval_patch(const shade_point *p, const shade_layer *layer, const gli
     footprint.dvdy *= longer;
     glint_eval_value(layer->material, surface, layer->counts ? &footprint : NULL, layer->wo, wi, &light, value);
     value->facet_count /= grown;
-}
-
-static void keep_facets(const shade_layer *layer, const glint_value *from, glint_value *to)
-{
-    if (!layer->counts)
-        return;
-    to->facet_count = from->facet_count;
-    to->lit_probability = from->lit_probability;
-    to->over_limit = from->over_limit;
 }
 
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
