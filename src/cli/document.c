@@ -119,6 +119,11 @@ void document_set_text(document *object, const char *key, const char *text)
     set(object, key, string_of(text));
 }
 
+void document_set_boolean(document *object, const char *key, bool value)
+{
+    set(object, key, json_boolean(value));
+}
+
 void document_set_integer(document *object, const char *key, uint64_t value)
 {
     set(object, key, json_integer((json_int_t)value));

@@ -17,6 +17,7 @@ void document_free(document *d);
 
 /* Keys keep their order. Bytes that are not UTF-8 (file names may hold any) become U+FFFD. */
 void document_set_text(document *object, const char *key, const char *text);
+void document_set_boolean(document *object, const char *key, bool value);
 /* At most 2^63 - 1. */
 void document_set_integer(document *object, const char *key, uint64_t value);
 /* Nine significant digits: every float survives; null where the value is not finite. */

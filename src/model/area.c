@@ -114,7 +114,7 @@ static void add_facets(facet_integral *s, vec3d h, double area)
         return;
     const float g2 = ndf_correlated_masking(wo.z, s->masked_o, wi.z, ndf_masked(&s->distribution, wi));
     for (int c = 0; c < 3; c++)
-        s->specular[c] += area * (double)(lobe_reflectance(s->q, c, fminf(cosine, 1.0F)) * g2 * cosine);
+        s->specular[c] += area * (double)(lobe_facet_reflectance(s->q, c, fminf(cosine, 1.0F)) * g2 * cosine);
 }
 
 static void add_spoke(const sweep_node *n, void *user)

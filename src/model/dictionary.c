@@ -16,6 +16,7 @@
 #define GLINT_LANES 1
 #include "footprint/grid.h"
 #include "math/hash.h"
+#include "math/uniform.h"
 
 /* Below this h is so close to the horizon that slopes are longer than any facet's. */
 #define LEAST_COSINE 1e-6F

@@ -25,6 +25,7 @@ typedef struct facet_sum {
     const model_query *q;
     ndf distribution;
     float total_area; /* D_H */
+    vec3 h;           /* half vector */
     float chord2;     /* square of the chord from the middle of the light's cap to its rim */
     uint32_t seed;
     double density;         /* sum of what the facets add to D, averaged over the light */
@@ -83,23 +84,25 @@ static float beckmann_disk_mass(float d2, float r2)
     return fminf(sum * step, 1.0F);
 }
 
-/* The part of one facet's reflection that meets the light's cap. The lobe is taken as round around the mirrored view.
- */
-static float lit_part(const facet_sum *s, vec3 h)
+/* The part of one facet's reflection that meets the light's cap. A mirror shows the light or not. The lobe of a rough
+ * facet is one of half vectors, round around its normal; among them the cap is a disc of 1 / (4 h.wo) of its solid
+ * angle, taken as round. */
+static float lit_part(const facet_sum *s, vec3 m)
 {
-    const vec3 wo = s->q->wo, wi = s->q->wi;
-    const float cosine = vec3_dot(wo, h);
+    const vec3 wo = s->q->wo;
+    const float cosine = vec3_dot(wo, m);
     if (!(cosine > 0.0F))
         return 0.0F;
-    const vec3 mirrored = vec3_add(vec3_scale(h, 2.0F * cosine), vec3_scale(wo, -1.0F));
-    const vec3 off = vec3_add(mirrored, vec3_scale(wi, -1.0F));
-    const float off2 = vec3_dot(off, off);
     const float alpha = s->q->material->options.facet_alpha;
-    if (!(alpha > 0.0F))
-        return off2 <= s->chord2 ? 1.0F : 0.0F;
-    /* A lobe of solid angle alpha^2 in h has 4 h.wo times that in wi. */
-    const float scale = 1.0F / (alpha * alpha * 4.0F * cosine);
-    const float d2 = fminf(off2 * scale, 1e12F), r2 = fminf(s->chord2 * scale, 1e12F);
+    if (!(alpha > 0.0F)) {
+        const vec3 mirrored = vec3_add(vec3_scale(m, 2.0F * cosine), vec3_scale(wo, -1.0F));
+        const vec3 off = vec3_add(mirrored, vec3_scale(s->q->wi, -1.0F));
+        return vec3_dot(off, off) <= s->chord2 ? 1.0F : 0.0F;
+    }
+    const vec3 off = vec3_add(m, vec3_scale(s->h, -1.0F));
+    const float scale = 1.0F / (alpha * alpha);
+    const float d2 = fminf(vec3_dot(off, off) * scale, 1e12F);
+    const float r2 = fminf(s->chord2 * scale / (4.0F * cosine), 1e12F);
     return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
 }
 
@@ -188,6 +191,7 @@ static void explicit_eval(const model_query *q, glint_value *value)
              * pi. */
             facet_sum s = { .q = q,
                             .distribution = lobe_ndf(q),
+                            .h = lobe.h,
                             .chord2 = q->solid_angle_sr / MATH_PI,
                             .seed = q->material->options.seed + q->footprint->seed };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);

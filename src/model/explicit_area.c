@@ -35,5 +35,5 @@ void explicit_area_facet(const model_query *q, const area_light *light, vec3 h, 
     const ndf n = lobe_ndf(q);
     const float masking = ndf_masking_over_cosine(&n, q->wo, wi);
     for (int c = 0; c < 3; c++)
-        rgb[c] = lit * masking * cosine * lobe_reflectance(q, c, fminf(cosine, 1.0F));
+        rgb[c] = lit * masking * cosine * lobe_facet_reflectance(q, c, fminf(cosine, 1.0F));
 }

@@ -14,7 +14,7 @@ ndf lobe_ndf(const model_query *q)
                   q->surface->alpha_x, q->surface->alpha_y };
 }
 
-float lobe_reflectance(const model_query *q, int channel, float cosine)
+float lobe_facet_reflectance(const model_query *q, int channel, float cosine)
 {
     const glint_material_options *o = &q->material->options;
     switch (o->fresnel) {
@@ -41,13 +41,14 @@ float lobe_base_albedo(const model_query *q, int channel, float cos_i)
     if (!(q->surface->diffuse[channel] > 0.0F))
         return 0.0F;
     const float coverage = q->material->options.coverage;
-    const float head_on = 1.0F - coverage * lobe_reflectance(q, channel, 1.0F);
+    const float head_on = 1.0F - coverage * lobe_facet_reflectance(q, channel, 1.0F);
     if (!(head_on > 0.0F))
         return 0.0F;
-    const float out = 1.0F - coverage * lobe_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
-    const float in = 1.0F - coverage * lobe_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
-    const float kept = out * (in / head_on);
-    return q->surface->diffuse[channel] * (kept < 1.0F ? kept : 1.0F);
+    const float out = 1.0F - coverage * lobe_facet_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+    const float in = 1.0F - coverage * lobe_facet_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
+    /* Where facets reflect most head-on, as metals nearly do, no more is left than came in at either angle. */
+    const float least = in < out ? in : out, both = out * (in / head_on);
+    return q->surface->diffuse[channel] * (both < least ? both : least);
 }
 
 void lobe_halve(const model_query *q, lobe_value *value)
@@ -63,7 +64,7 @@ void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *val
     const float masking = 0.25F * masking_over_cosine;
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
-        value->fresnel[c] = lobe_reflectance(q, c, value->h_dot_wi);
+        value->fresnel[c] = lobe_facet_reflectance(q, c, value->h_dot_wi);
         value->reflectance[c] = coverage * value->fresnel[c] * masking;
         value->specular[c] = value->reflectance[c] * value->density;
         value->diffuse[c] = lobe_base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
@@ -100,7 +101,7 @@ float lobe_specular_chance(const model_query *q)
 {
     float specular = 0.0F, diffuse = 0.0F;
     for (int c = 0; c < 3; c++) {
-        specular += q->material->options.coverage * lobe_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+        specular += q->material->options.coverage * lobe_facet_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
         diffuse += lobe_base_albedo(q, c, 1.0F);
     }
     if (!(diffuse > 0.0F))

@@ -19,8 +19,8 @@ typedef struct lobe_value {
 /* The distribution of the facets at this point. */
 ndf lobe_ndf(const model_query *q);
 
-/* F of one facet. cosine: h.wi, in [0, 1]. */
-float lobe_reflectance(const model_query *q, int channel, float cosine);
+/* F of one facet, for the cosine in [0, 1] between a direction and its normal. */
+float lobe_facet_reflectance(const model_query *q, int channel, float cosine);
 
 /* Albedo of the base below the facets for light at this angle. */
 float lobe_base_albedo(const model_query *q, int channel, float cos_i);

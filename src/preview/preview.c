@@ -43,7 +43,7 @@ static bool check_range(const char *name, int value, int low, int high, report *
 
 static bool check_options(const preview_options *o, report *r)
 {
-    const int last_model = (int)glint_model_count() - 1;
+    const int last_model = GLINT_MODEL_LAYERED - 1; /* which is made of the others */
     if (o->size != sizeof *o)
         return report_error(r, "preview: the options' size is %zu; expected %zu: start from PREVIEW_OPTIONS_INIT",
                             o->size, sizeof *o);

@@ -2,6 +2,9 @@
  */
 #include "preview/shade.h"
 
+/* How far above the horizon of a coat the middle of a light is taken to be at least: sin of about a degree. Taste. */
+#define LOWEST 0.02
+
 static void to_local(const shade_layer *layer, vec3 world, float local[3])
 {
     local[0] = (float)v3_dot(world, layer->x);
@@ -13,6 +16,28 @@ static vec3 to_world(const shade_layer *layer, const float local[3])
 {
     const vec3 in_plane = v3_mad(v3_scale(layer->x, (double)local[0]), layer->y, (double)local[1]);
     return v3_normalize(v3_mad(in_plane, layer->z, (double)local[2]));
+}
+
+void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3])
+{
+    const shade_layer *const layer = &p->layers[1];
+    const glint_coat coat = { .surface = layer->surface,
+                              .weight = layer->weight,
+                              .normal = { 0.0F, 0.0F, 1.0F },
+                              .tangent = { 1.0F, 0.0F, 0.0F } };
+    float local[3];
+    if (wi != NULL)
+        to_local(layer, *wi, local);
+    glint_transmittance(p->whole, &coat, layer->wo, wi != NULL ? local : NULL, rgb);
+}
+
+/* How much of a layer's light from wi is seen. */
+static void weigh(const shade_point *p, int i, vec3 wi, float weight[3])
+{
+    if (i == 0 && p->layer_count == 2)
+        shade_below_coat(p, &wi, weight);
+    else
+        weight[0] = weight[1] = weight[2] = p->layers[i].weight;
 }
 
 /* A slope distribution of roughness alpha has the variance alpha^2 / 2 per axis; variances add. */
@@ -46,13 +71,15 @@ bool shade_faces(const shade_point *p, vec3 wi)
     return false;
 }
 
-static void keep_facets(const shade_layer *layer, const glint_value *from, glint_value *to)
+/* The facets of both layers together, as glint_value has them. */
+static void add_facets(const glint_value *layer, glint_value *sum)
 {
-    if (!layer->counts)
-        return;
-    to->facet_count = from->facet_count;
-    to->lit_probability = from->lit_probability;
-    to->over_limit = from->over_limit;
+    const float both = sum->facet_count + layer->facet_count;
+    const float lit = sum->facet_count * sum->lit_probability + layer->facet_count * layer->lit_probability;
+    const bool is_first = !(sum->facet_count > 0.0F);
+    sum->lit_probability = is_first || !(both > 0.0F) ? layer->lit_probability : fminf(lit / both, 1.0F);
+    sum->facet_count = both;
+    sum->over_limit = sum->over_limit || layer->over_limit;
 }
 
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
@@ -61,16 +88,18 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
-        float local[3];
+        float local[3], weight[3];
         glint_value one;
         to_local(layer, wi, local);
-        glint_eval_value(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, local,
+        glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
                          &light, &one);
+        weigh(p, i, wi, weight);
         for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += layer->weight * one.rgb[c];
-            value->smooth[c] += layer->weight * one.smooth[c];
+            value->rgb[c] += weight[c] * one.rgb[c];
+            value->smooth[c] += weight[c] * one.smooth[c];
         }
-        keep_facets(layer, &one, value);
+        if (layer->counts)
+            add_facets(&one, value);
     }
 }
 
@@ -84,21 +113,35 @@ static void set_local(const shade_layer *layer, const shade_area *from, glint_ar
     to_local(layer, from->half_y, to->half_y);
 }
 
+/* A direction to the light for what the coat leaves of the base, which changes little over it: to its middle, or the
+ * nearest above the coat's horizon. */
+static vec3 towards_area(const shade_point *p, const shade_area *area)
+{
+    const vec3 z = p->layers[p->layer_count - 1].z;
+    const vec3 middle = v3_normalize(area->center);
+    const double height = v3_dot(middle, z);
+    return height >= LOWEST ? middle : v3_normalize(v3_mad(middle, z, LOWEST - height));
+}
+
 void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value)
 {
+    const vec3 middle = towards_area(p, area);
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
         glint_area_light light;
         glint_value one;
+        float weight[3];
         set_local(layer, area, &light);
-        glint_eval_area(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, &light,
+        glint_eval_area(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, &light,
                         &one);
+        weigh(p, i, middle, weight);
         for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += layer->weight * one.rgb[c];
-            value->smooth[c] += layer->weight * one.smooth[c];
+            value->rgb[c] += weight[c] * one.rgb[c];
+            value->smooth[c] += weight[c] * one.smooth[c];
         }
-        keep_facets(layer, &one, value);
+        if (layer->counts)
+            add_facets(&one, value);
     }
 }
 
@@ -188,22 +231,24 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
     out->layer = chosen;
     out->wi = to_world(layer, sample.wi);
     out->pdf = sample.pdf * share;
+    float weight[3];
+    weigh(p, (int)(layer - p->layers), out->wi, weight);
     for (int c = 0; c < 3; ++c)
-        out->weight[c] = sample.weight[c] * layer->weight / share;
+        out->weight[c] = sample.weight[c] * weight[c] / share;
     return true;
 }
 
 /* ---- light from all around, found in two ways ---- */
 
 /* A layer under a patch, with the footprint that a sample of this density stands for. */
-static void eval_patch(const shade_point *p, const shade_layer *layer, const glint_surface *surface,
-                       const shade_surroundings *s, const float wi[3], float density, glint_value *value)
+static void eval_patch(const shade_layer *layer, const glint_surface *surface, const shade_surroundings *s,
+                       const float wi[3], float density, glint_value *value)
 {
     const glint_light light = { GLINT_LIGHT_CAP, fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI)) };
     const float expected = s->solid_angle_sr * density;
     const float grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
     const float longer = sqrtf(grown);
-    glint_footprint footprint = p->footprint;
+    glint_footprint footprint = layer->footprint;
     footprint.dudx *= longer;
     footprint.dudy *= longer;
     footprint.dvdx *= longer;
@@ -218,19 +263,21 @@ void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, 
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
         const glint_surface surface = surface_in_surroundings(p, layer);
-        float local[3];
+        float local[3], weight[3];
         glint_value one;
         to_local(layer, s->wi, local);
         const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
         const float density = s->light_pdf + own;
         if (!(density > 0.0F))
             continue;
-        eval_patch(p, layer, &surface, s, local, density, &one);
+        eval_patch(layer, &surface, s, local, density, &one);
+        weigh(p, i, s->wi, weight);
         for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += layer->weight * one.rgb[c] / density;
-            value->smooth[c] += layer->weight * one.smooth[c] / density;
+            value->rgb[c] += weight[c] * one.rgb[c] / density;
+            value->smooth[c] += weight[c] * one.smooth[c] / density;
         }
-        keep_facets(layer, &one, value);
+        if (layer->counts)
+            add_facets(&one, value);
     }
 }
 
@@ -246,8 +293,8 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3];
         to_local(layer, s->wi, local);
-        eval_patch(p, layer, &surface, s, local, density, &one);
-        keep_facets(layer, &one, value);
+        eval_patch(layer, &surface, s, local, density, &one);
+        add_facets(&one, value);
     }
     for (int c = 0; c < 3; ++c) {
         /* The sample's own quotient: a sharp lobe at a rounded direction would give another. */

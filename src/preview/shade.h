@@ -11,14 +11,15 @@ typedef struct shade_layer {
     glint_surface surface;
     vec3 x, y, z; /* the local frame in world space: tangent, bitangent, shading normal */
     float wo[3];  /* to the viewer, in that frame */
-    float weight; /* what the layers above leave of it, or how much of the surface the coat covers */
+    float weight; /* of the coat: how much of the surface it covers. Of the base: about what the coat leaves of it */
     bool counts;  /* wants the footprint */
+    glint_footprint footprint;
 } shade_layer;
 
 typedef struct shade_point {
-    shade_layer layers[2]; /* the base, then the coat */
-    int layer_count;       /* 0: unlit */
-    glint_footprint footprint;
+    shade_layer layers[2];       /* the base, then the coat */
+    int layer_count;             /* 0: unlit */
+    const glint_material *whole; /* both layers, of which they are part */
     float emission[3];
     float occlusion; /* of diffuse light from all around: occlusionTexture */
     float opacity;
@@ -39,10 +40,14 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
  * the picture tends to that of the true roughness. Tokuyoshi and Kaplanyan 2019, Eq. 5. */
 void shade_widen(shade_point *p, double slope_variance);
 
-/* Sum of the layers' f |cos theta_i| for light from wi (world, unit); facet_count and lit_probability are those of the
- * layer that counts. f = f_base (1 - c F) + c f_coat, F the Schlick term of the coat and c its weight
- * (KHR_materials_clearcoat). */
+/* Sum of the layers' f |cos theta_i| for light from wi (world, unit): the numbers of libglint's layered model, which
+ * has the formula. The layers are evaluated one by one because a hit has more to say of each than a glint_coat does: a
+ * frame of either handedness, and whether it counts for this ray. */
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value);
+
+/* What the coat leaves of the base for light from wi (world, unit), or of light from below where wi is NULL: see
+ * glint_transmittance. There is a coat. */
+void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);

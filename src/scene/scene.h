@@ -90,7 +90,8 @@ typedef struct scene_material {
     scene_texture anisotropy_texture;
     float clearcoat, clearcoat_roughness;
     scene_texture clearcoat_texture, clearcoat_roughness_texture, clearcoat_normal_texture; /* R; G */
-    scene_glint glint;
+    scene_glint glint;      /* of the material: of the layer that it names */
+    scene_glint coat_glint; /* of KHR_materials_clearcoat: of the coat, beside glint in the base */
 } scene_material;
 
 /* One glTF primitive as triangles. Arrays that a file leaves out and that cannot be computed are NULL. */
@@ -181,8 +182,10 @@ void scene_free(scene *s);
 /* A material with the defaults of the glTF text and no glints. */
 scene_material scene_material_default(void);
 scene_texture scene_texture_none(void);
+/* The glints of a layer, whichever extension they come from; NULL: there are none. */
+const scene_glint *scene_layer_glint(const scene_material *m, scene_glint_layer layer);
 
-#define SCENE_MATERIAL_TEXTURES 15
+#define SCENE_MATERIAL_TEXTURES 19
 /* All textures of a material, those without an image included. They belong to m. */
 void scene_material_textures(const scene_material *m, const scene_texture *list[SCENE_MATERIAL_TEXTURES]);
 
