@@ -24,6 +24,7 @@ typedef struct stage {
     light *lights;
     environment_map own_map; /* of the scene's image-based light */
     environment environment;
+    emitters emitters;
     world world;
 } stage;
 
@@ -147,6 +148,10 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r))
         return false;
     st->world.trace = st->trace;
+    if (!emitters_make(&st->geometry, &st->emitters, r))
+        return false;
+    if (st->emitters.count > 0 && o->bounces > 0)
+        st->world.emitters = &st->emitters;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
     return true;
@@ -159,6 +164,7 @@ static void take_down(stage *st)
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
     textures_close(st->textures);
+    emitters_free(&st->emitters);
     environment_free(&st->environment);
     environment_map_free(&st->own_map);
     free(st->lights);

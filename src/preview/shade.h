@@ -98,5 +98,7 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
 
 /* Opacity of a point for rays that only want to know whether they pass; textures are not filtered. */
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at);
+/* What a point without a coat emits, likewise. */
+void shade_emission(const shader *s, const geometry *g, const trace_hit *at, float rgb[3]);
 
 #endif
