@@ -193,9 +193,10 @@ typedef struct glint_material_options {
                                            glint_value.over_limit is set: a client that wants the truth must look */
     float density_variation;     /* [0, 8], standard deviation over cells of log4 of the density; dictionary only */
     float max_anisotropy;        /* [1, 16], a footprint longer than so many widths is widened; dictionary only */
-    float color_variation;       /* [0, 1], how far the hue of a facet strays from the base colour; dictionary only */
-    uint32_t color_count;        /* [0, GLINT_MAX_COLORS], how many of the colors there are; dictionary only */
-    float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean */
+    float color_variation;       /* [0, 1], how far the hue of a facet strays from the base colour */
+    uint32_t color_count;        /* [0, GLINT_MAX_COLORS], how many of the colors there are */
+    float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean: each facet takes
+                                          one, and the surface keeps its base colour */
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
     glint_layers layers;               /* for GLINT_MODEL_LAYERED */
 } glint_material_options;

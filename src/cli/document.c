@@ -134,12 +134,17 @@ void document_set_number(document *object, const char *key, double value)
     set(object, key, number_of(value));
 }
 
-void document_set_numbers(document *object, const char *key, const float *values, int count)
+static document *numbers_of(const float *values, int count)
 {
     document *array = document_array();
     for (int i = 0; i < count; ++i)
         append(array, number_of((double)values[i]));
-    document_set(object, key, array);
+    return array;
+}
+
+void document_set_numbers(document *object, const char *key, const float *values, int count)
+{
+    document_set(object, key, numbers_of(values, count));
 }
 
 void document_set(document *object, const char *key, document *child)
@@ -160,6 +165,11 @@ void document_append_text(document *array, const char *text)
 void document_append_integer(document *array, uint64_t value)
 {
     append(array, json_integer((json_int_t)value));
+}
+
+void document_append_numbers(document *array, const float *values, int count)
+{
+    document_append(array, numbers_of(values, count));
 }
 
 bool document_print(document *d, FILE *out)

@@ -28,6 +28,7 @@ void document_set(document *object, const char *key, document *child);
 void document_append(document *array, document *child);
 void document_append_text(document *array, const char *text);
 void document_append_integer(document *array, uint64_t value);
+void document_append_numbers(document *array, const float *values, int count);
 
 /* Prints on one line, without a newline, and frees. False when memory ran out or the stream failed. */
 bool document_print(document *d, FILE *out);

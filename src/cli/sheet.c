@@ -70,6 +70,20 @@ static void show_base(const scene_material *m, document *object)
     }
 }
 
+/* The table of tints, a line for each. */
+static void show_colors(const scene_glint *g, document *object)
+{
+    document *array = object && g->color_count > 0 ? document_array() : NULL;
+    for (uint32_t i = 0; i < g->color_count; ++i)
+        if (object)
+            document_append_numbers(array, g->colors[i], 3);
+        else
+            show_numbers(NULL, NULL, i == 0 ? "colors of facets" : "", g->colors[i], 3, "%s",
+                         i == 0 ? " (linear RGB, over their mean)" : "");
+    if (array)
+        document_set(object, "glint_colors", array);
+}
+
 static void show_facets(const scene_glint *g, document *object)
 {
     char length[32];
@@ -81,6 +95,7 @@ static void show_facets(const scene_glint *g, document *object)
                  (double)g->facet_roughness * (double)g->facet_roughness);
     show_numbers(object, "glint_color", "facet color", g->color, 3, " (linear RGB)");
     show_numbers(object, "glint_color_variation", "color variation", &g->color_variation, 1, " (0 none, 1 full)");
+    show_colors(g, object);
     show_numbers(object, "glint_elongation", "elongation", &g->elongation, 1, " (facet length over width)");
     show_numbers(object, "glint_coverage", "coverage", &g->coverage, 1, " of the surface carries facets");
     show_numbers(object, "glint_density_variation", "density variation", &g->density_variation, 1, " (0 even)");
@@ -101,6 +116,21 @@ static void show_anchor(const scene_glint *g, document *object)
         printf("  %-22s%u\n", "seed", g->seed);
 }
 
+static void show_example(const scene_glint *g, document *object)
+{
+    char length[32];
+    const bool scattered = g->example_placement == SCENE_PLACEMENT_SCATTERED;
+    show_text(object, "glint_example_placement", "normal map", scattered ? "scattered" : "tiled");
+    show_numbers(object, "glint_example_size_m", "side of the map", &g->example_size, 1, " (%s)",
+                 readable_length((double)g->example_size, length, sizeof length));
+    if (!scattered)
+        return;
+    show_numbers(object, "glint_example_rotation_variation_rad", "turned by", &g->example_rotation_variation, 1,
+                 " rad at most, either way");
+    show_numbers(object, "glint_example_scale_variation", "scaled by", &g->example_scale_variation, 1,
+                 " of the side at most, either way");
+}
+
 void sheet_show(const scene_material *m, document *object)
 {
     show_base(m, object);
@@ -112,5 +142,7 @@ void sheet_show(const scene_material *m, document *object)
     }
     show_numbers(object, "glint_factor", "glint factor", &g->factor, 1, " (0 smooth, 1 every facet counted)");
     show_facets(g, object);
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
+        show_example(g, object);
     show_anchor(g, object);
 }

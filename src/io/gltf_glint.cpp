@@ -11,6 +11,15 @@ void read_number(const tinygltf::Value &extension, const char *name, float *out)
     *out = static_cast<float>(gltf_number(extension, name, static_cast<double>(*out)));
 }
 
+void read_colors(const tinygltf::Value &extension, scene_glint *out)
+{
+    const tinygltf::Value *colors = gltf_member(extension, "glintColors");
+    out->color_count = colors ? static_cast<uint32_t>(colors->ArrayLen()) : 0;
+    for (uint32_t i = 0; i < out->color_count; i++)
+        for (int c = 0; c < 3; c++)
+            out->colors[i][c] = static_cast<float>(colors->Get(static_cast<int>(i)).Get(c).GetNumberAsDouble());
+}
+
 void read_facets(const tinygltf::Value &extension, scene_glint *out)
 {
     read_number(extension, "glintFactor", &out->factor);
@@ -18,6 +27,7 @@ void read_facets(const tinygltf::Value &extension, scene_glint *out)
     read_number(extension, "glintFacetRoughness", &out->facet_roughness);
     gltf_numbers(extension, "glintColorFactor", out->color, 3);
     read_number(extension, "glintColorVariation", &out->color_variation);
+    read_colors(extension, out);
     read_number(extension, "glintElongation", &out->elongation);
     read_number(extension, "glintCoverage", &out->coverage);
     read_number(extension, "glintDensityVariation", &out->density_variation);
@@ -39,6 +49,8 @@ void read_placement(const tinygltf::Value &extension, scene_glint *out)
     if (gltf_text(extension, "glintExamplePlacement", "tiled") == "scattered")
         out->example_placement = SCENE_PLACEMENT_SCATTERED;
     read_number(extension, "glintExampleSize", &out->example_size);
+    read_number(extension, "glintExampleRotationVariation", &out->example_rotation_variation);
+    read_number(extension, "glintExampleScaleVariation", &out->example_scale_variation);
 }
 
 } // namespace

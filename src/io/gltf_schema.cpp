@@ -213,6 +213,9 @@ class checker
         case kind::numbers:
             check_number(value, p, pointer);
             break;
+        case kind::triples:
+            check_array(value, numbers(p.name, 3, p.low, p.high), pointer);
+            break;
         case kind::indices:
             check_index(value, p, pointer);
             break;
@@ -233,6 +236,8 @@ class checker
         switch (k) {
         case kind::numbers:
             return "numbers";
+        case kind::triples:
+            return "arrays of 3 numbers";
         case kind::indices:
             return "indices";
         case kind::texts:
@@ -287,6 +292,11 @@ property choice(const char *name, const char *of)
 property numbers(const char *name, size_t count, double low, double high)
 {
     return { name, kind::numbers, "", nullptr, low, high, false, count, count };
+}
+
+property triples(const char *name, size_t min_count, size_t max_count, double low, double high)
+{
+    return { name, kind::triples, "", nullptr, low, high, false, min_count, max_count };
 }
 
 property numbers_between(const char *name, size_t min_count, size_t max_count)

@@ -20,6 +20,7 @@ enum class kind {
     index,      // into the array at `of`, a JSON pointer without its first slash
     choice,     // one of the strings, or integers, of `of`, separated by |
     numbers,    // array of numbers
+    triples,    // array of arrays of three numbers
     indices,    // array of distinct indices into the array at `of`
     texts,      // array of distinct strings
     object,     // as `schema` says
@@ -80,6 +81,7 @@ property integer(const char *name, double low, double high);
 property index(const char *name, const char *of);
 property choice(const char *name, const char *of);
 property numbers(const char *name, size_t count, double low, double high);
+property triples(const char *name, size_t min_count, size_t max_count, double low, double high);
 property numbers_between(const char *name, size_t min_count, size_t max_count);
 property indices(const char *name, const char *of, size_t min_count);
 property texts(const char *name);

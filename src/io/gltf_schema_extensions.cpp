@@ -1,4 +1,5 @@
 // The properties of the extensions that the reader knows, each from its own text at Khronos, and GLINT_materials_glint.
+#include "glint.h"
 #include "io/gltf_schema.hpp"
 
 namespace gltf
@@ -103,6 +104,7 @@ schema glint_schema()
                numbers("glintColorFactor", 3, 0.0, 1.0),
                object("glintColorTexture", texture_info_schema()),
                number("glintColorVariation", 0.0, 1.0),
+               triples("glintColors", 1, GLINT_MAX_COLORS, 0.0, 1.0),
                number("glintElongation", 1.0, infinity),
                number("glintCoverage", 0.0, 1.0),
                number("glintDensityVariation", 0.0, infinity),
@@ -114,7 +116,9 @@ schema glint_schema()
                choice("glintStructure", "flakes|example"),
                object("glintExampleTexture", texture_info_schema()),
                choice("glintExamplePlacement", "tiled|scattered"),
-               number_above("glintExampleSize", 0.0) },
+               number_above("glintExampleSize", 0.0),
+               number("glintExampleRotationVariation", 0.0, 3.1415927),
+               number("glintExampleScaleVariation", 0.0, 0.5) },
              {} };
 }
 

@@ -59,9 +59,11 @@ static inline vint binomial_threshold(vfloat s, vfloat dither)
  * trials   >= 0, up to 1e30
  * uniform  hashes, uniform as signed 32-bit integers
  * weight   >= 0
+ * drawn    NULL, or where each X_i goes
  */
-static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
-                                           const vfloat weight[12], const vfloat dither[3])
+static inline __attribute__((always_inline)) vfloat
+binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint uniform[12], const vfloat weight[12],
+                        const vfloat dither[3], vfloat *drawn)
 {
     const vfloat p = chance->p;
     const vfloat n = floor_f(trials);
@@ -76,6 +78,8 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
     vint u[12];
     for (int i = 0; i < 12; i++)
         u[i] = uniform[i] ^ flip;
+    for (int i = 0; drawn && i < 12; i++)
+        drawn[i] = splat(0.0F);
 
     if (any(~wide)) {
         static const float inverse[BINOMIAL_WALK_STEPS + 1] = {
@@ -107,8 +111,12 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
             step = step - chance->odds;
             survival = survival - mass;
             for (int g = 0; g < 3; g++)
-                for (int i = 4 * g; i < 4 * g + 4; i++)
-                    group[g] = group[g] + choose(less_i(u[i], threshold[g]), weight[i], splat(0.0F));
+                for (int i = 4 * g; i < 4 * g + 4; i++) {
+                    const vmask more = less_i(u[i], threshold[g]);
+                    group[g] = group[g] + choose(more, weight[i], splat(0.0F));
+                    if (drawn)
+                        drawn[i] = drawn[i] + choose(more, splat(1.0F), splat(0.0F));
+                }
         }
         sum = group[0] + group[1] + group[2];
     }
@@ -124,13 +132,23 @@ static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance 
                 const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
                 const vfloat x = max_f(floor_f(centre - z * (s - c * z)), splat(0.0F));
                 normal[g] = normal[g] + weight[i] * min_f(x, n + 1.0F);
+                if (drawn)
+                    drawn[i] = choose(wide, min_f(x, n + 1.0F), drawn[i]);
             }
         sum = choose(wide, normal[0] + normal[1] + normal[2], sum);
     }
     vfloat total = splat(0.0F);
     for (int i = 0; i < 12; i++)
         total = total + weight[i];
+    for (int i = 0; drawn && i < 12; i++)
+        drawn[i] = choose(flip, n + 1.0F - drawn[i], drawn[i]);
     return choose(flip, (n + 1.0F) * total - sum, sum);
+}
+
+static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
+                                           const vfloat weight[12], const vfloat dither[3])
+{
+    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0);
 }
 
 #endif

@@ -172,6 +172,12 @@ static inline vfloat floor_f(vfloat x)
     return __builtin_floorf(x);
 }
 
+/* table[index], a table of eight. */
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return table[index];
+}
+
 #else
 
 static inline vfloat splat(float x)
@@ -256,6 +262,11 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return (vfloat)_mm512_permutexvar_ps((__m512i)index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
+}
+
 #elif GLINT_LANES == 8 && defined(__AVX2__)
 
 static inline int any(vmask m)
@@ -273,6 +284,11 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm256_floor_ps((__m256)x);
 }
 
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return (vfloat)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+}
+
 #elif GLINT_LANES == 4 && defined(__SSE4_1__)
 
 static inline int any(vmask m)
@@ -288,6 +304,27 @@ static inline vfloat sqrt_f(vfloat x)
 static inline vfloat floor_f(vfloat x)
 {
     return (vfloat)_mm_floor_ps((__m128)x);
+}
+
+#elif GLINT_LANES == 4 && defined(__SSE2__)
+
+static inline int any(vmask m)
+{
+    return _mm_movemask_ps((__m128)m) != 0;
+}
+
+static inline vfloat sqrt_f(vfloat x)
+{
+    return (vfloat)_mm_sqrt_ps((__m128)x);
+}
+
+/* Truncates and goes one down where that went up. From 2^23 on every float is whole. */
+static inline vfloat floor_f(vfloat x)
+{
+    const vfloat whole = to_float(to_int(x));
+    const vfloat down = whole - choose(less(x, whole), splat(1.0F), splat(0.0F));
+    const vmask small = float_from_bits(bits_of(x) & 0x7fffffffU) < 8388608.0F;
+    return choose(small, down, x);
 }
 
 #else
@@ -312,6 +349,18 @@ static inline vfloat floor_f(vfloat x)
     for (int i = 0; i < GLINT_LANES; i++)
         x[i] = __builtin_floorf(x[i]);
     return x;
+}
+
+#endif
+
+#if !(GLINT_LANES == 16 && defined(__AVX512F__)) && !(GLINT_LANES == 8 && defined(__AVX2__))
+
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    vfloat v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++)
+        v[i] = table[index[i]];
+    return v;
 }
 
 #endif

@@ -13,6 +13,13 @@
 
 enum { CHUNK = 64 }; /* points gathered for the kernel at a time; a multiple of every width */
 
+/* What setup makes. */
+typedef struct counting_baked {
+    counting_width width;
+    int is_tinted;
+    tint_palette palette;
+} counting_baked;
+
 /* The arrays that counting_points points to. */
 typedef struct gathered {
     double u[CHUNK], v[CHUNK];
@@ -27,17 +34,17 @@ counting_width counting_widest(size_t max_lanes)
     __builtin_cpu_init();
     if (max_lanes >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        return (counting_width){ 16, counting_kernel_16 };
+        return (counting_width){ 16, counting_kernel_16, counting_tinted_16 };
     if (max_lanes >= 8 && __builtin_cpu_supports("avx2"))
-        return (counting_width){ 8, counting_kernel_8 };
+        return (counting_width){ 8, counting_kernel_8, counting_tinted_8 };
     if (max_lanes >= 4 && __builtin_cpu_supports("sse4.1"))
-        return (counting_width){ 4, counting_kernel_4 };
+        return (counting_width){ 4, counting_kernel_4, counting_tinted_4 };
 #elif defined(__aarch64__)
     if (max_lanes >= 4)
-        return (counting_width){ 4, counting_kernel_4 };
+        return (counting_width){ 4, counting_kernel_4, counting_tinted_4 };
 #endif
     (void)max_lanes;
-    return (counting_width){ 1, counting_kernel_1 };
+    return (counting_width){ 1, counting_kernel_1, counting_tinted_1 };
 }
 
 /* What a point makes of its light: the smooth reflection, and which facets are lit. */
@@ -96,11 +103,10 @@ static void gather(const model_query *q, const lit *lobe, gathered *g, size_t i)
     g->p[i] = lobe->p;
 }
 
-static void count_gathered(const gathered *g, counting_kernel *kernel, size_t count, float *factor, float *facets)
+static counting_points points_of(const gathered *g)
 {
-    const counting_points points = { g->u,       g->v,    g->dudx, g->dudy, g->dvdx, g->dvdy,
-                                     g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
-    kernel(&points, count, factor, facets);
+    return (counting_points){ g->u,       g->v,    g->dudx, g->dudy, g->dvdx, g->dvdy,
+                              g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
 }
 
 static void combine(const model_query *q, const lit *lobe, float factor, glint_value *value)
@@ -109,6 +115,27 @@ static void combine(const model_query *q, const lit *lobe, float factor, glint_v
     for (int c = 0; c < 3; c++) {
         value->smooth[c] = lobe->specular[c] + lobe->diffuse[c];
         value->rgb[c] = lobe->specular[c] * ((1.0F - g) + g * factor) + lobe->diffuse[c];
+    }
+}
+
+/* The discrete queries of a chunk, index[i] the query of entry i, for facets of different colours. */
+static void eval_tinted(const model_query *q, const lit *lobe, const gathered *g, const size_t *index, size_t count,
+                        size_t padded, counting_width width, glint_value *value)
+{
+    const counting_baked *baked = q->material->baked;
+    float factor[3][CHUNK], facets[CHUNK];
+    float *const factors[3] = { factor[0], factor[1], factor[2] };
+    const counting_points points = points_of(g);
+    width.tinted(&points, padded, &baked->palette, factors, facets);
+    for (size_t i = 0; i < count; i++) {
+        const lit *l = &lobe[index[i]];
+        glint_value *v = &value[index[i]];
+        combine(&q[index[i]], l, 1.0F, v);
+        const float share = q[index[i]].surface->discreteness;
+        for (int c = 0; c < 3; c++)
+            v->rgb[c] = l->specular[c] * ((1.0F - share) + share * factor[c][i]) + l->diffuse[c];
+        v->facet_count = facets[i];
+        v->lit_probability = g->p[i];
     }
 }
 
@@ -134,8 +161,14 @@ static void eval_chunk(const model_query *q, size_t count, counting_width width,
     for (; padded % width.lanes != 0; padded++)
         gather(&q[index[discrete - 1]], &lobe[index[discrete - 1]], &g, padded);
 
+    const counting_baked *baked = q->material->baked;
+    if (baked->is_tinted) {
+        eval_tinted(q, lobe, &g, index, discrete, padded, width, value);
+        return;
+    }
     float factor[CHUNK], facets[CHUNK];
-    count_gathered(&g, width.kernel, padded, factor, facets);
+    const counting_points points = points_of(&g);
+    width.kernel(&points, padded, factor, facets);
     for (size_t i = 0; i < discrete; i++) {
         combine(&q[index[i]], &lobe[index[i]], factor[i], &value[index[i]]);
         value[index[i]].facet_count = facets[i];
@@ -145,25 +178,26 @@ static void eval_chunk(const model_query *q, size_t count, counting_width width,
 
 static void counting_eval(const model_query *q, glint_value *value)
 {
-    eval_chunk(q, 1, (counting_width){ 1, counting_kernel_1 }, value);
+    eval_chunk(q, 1, (counting_width){ 1, counting_kernel_1, counting_tinted_1 }, value);
 }
 
 static void counting_eval_many(const model_query *q, size_t count, glint_value *value)
 {
-    const counting_width *width = q->material->baked;
+    const counting_baked *baked = q->material->baked;
     for (size_t i = 0; i < count; i += CHUNK)
-        eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, *width, value + i);
+        eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, baked->width, value + i);
 }
 
-/* Which width this machine runs is found once, when the material is made. */
+/* Which width this machine runs, and the palette, are found once, when the material is made. */
 static glint_result counting_setup(struct glint_material *material)
 {
     const glint_allocator *a = &material->options.allocator;
-    counting_width *width = a->allocate(sizeof(*width), a->user);
-    if (!width)
+    counting_baked *baked = a->allocate(sizeof(*baked), a->user);
+    if (!baked)
         return GLINT_ERROR_MEMORY;
-    *width = counting_widest(16);
-    material->baked = width;
+    *baked =
+        (counting_baked){ counting_widest(16), tint_is_asked(&material->options), tint_palette_of(&material->options) };
+    material->baked = baked;
     return GLINT_OK;
 }
 
@@ -176,7 +210,7 @@ const struct model counting_model = {
     .name = "counting",
     .features = GLINT_FEATURE_DISCRETE | GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC |
                 GLINT_FEATURE_SAMPLE | GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA |
-                GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+                GLINT_FEATURE_EQUAL_PROJECTED_AREA | GLINT_FEATURE_COLOR,
     .setup = counting_setup,
     .free = counting_free,
     .eval = counting_eval,

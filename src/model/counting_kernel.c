@@ -8,77 +8,8 @@
  */
 #include "model/counting_kernel.h"
 
-#include "footprint/grid.h"
 #include "math/binomial.h"
-
-#define CELLS (GRID_COUNT * GRID_CELLS)
-
-/* Blending four corners with bilinear weights v divides the variance by 1 / sum v^2, 9/4 in the mean. Drawing with 4/9
- * of the facets gives it back: over a large patch the variance is that of the facets themselves. */
-#define ANGULAR_SHARE 0.444444444F
-
-/* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
-#define LEAST_COUNT 1e-20F
-
-/* A pixel well inside one facet sees it lit or not: variance (1 - p) / p. The blending over cells leaves half of the
- * variance of a count, so the cells have half of a facet's area. Over a large patch the size of the cells does not
- * matter. */
-#define FACET_SHARE 0.5F
-
-/* One facet on a square of a thousand kilometres: sparser than that counts as that. */
-#define LEAST_DENSITY 1e-12F
-#define LEAST_AREA 1e-30F
-
-/* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
-#define ANGULAR_LEVELS 14
-
-typedef struct angular_lattice {
-    vuint x, y;    /* h in units of 2^-16 cells of the finer level */
-    vint level;    /* log2 of cells per unit */
-    vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
-} angular_lattice;
-
-/* A facet stays lit while h is within the cap, so a cell has the cap's area. Levels are powers of two; each cell of the
- * surface takes one of the two nearest, with the chance that makes the mean area right: nothing moves when the cap
- * changes size. */
-static angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
-{
-    const vfloat area = min_f(max_f(cap, splat(1.0F / (1 << 2 * ANGULAR_LEVELS))), splat(1.0F));
-    angular_lattice l;
-    l.level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
-    const vfloat scale = exp2_i(l.level);
-    l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
-    l.x = (vuint)to_int(hx * scale * 65536.0F) + 0x40000000U;
-    l.y = (vuint)to_int(hy * scale * 65536.0F) + 0x40000000U;
-    return l;
-}
-
-/* Uniforms and weights of the four corners around h in the lattice of one surface cell. */
-static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat cell_weight, vint uniform[4],
-                                   vfloat weight[4], vfloat *dither)
-{
-    const vuint bits = hash_top(cell + HASH_X);
-    const vmask coarse = less_i((vint)(bits >> 16), (vint)l->coarser);
-    *dither = to_float((vint)(bits & 0xffffU)) * (1.0F / 65536.0F);
-    const vuint x = choose_u(coarse, l->x >> 1, l->x) + (cell & 0xffffU);
-    const vuint y = choose_u(coarse, l->y >> 1, l->y) + (cell >> 16);
-
-    const vfloat fx = to_float((vint)(x & 0xffffU)), fy = to_float((vint)(y & 0xffffU));
-    const vfloat gx = 65536.0F - fx;
-    const vfloat scaled = cell_weight * 2.3283064e-10F; /* 2^-32 */
-    const vfloat up = scaled * fy, down = scaled * (65536.0F - fy);
-    weight[0] = gx * down;
-    weight[1] = fx * down;
-    weight[2] = gx * up;
-    weight[3] = fx * up;
-
-    const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
-    const vuint corner = (cell + (x >> 16)) * HASH_X + (y >> 16) * HASH_Y + lattice;
-    uniform[0] = (vint)hash_top(corner);
-    uniform[1] = (vint)hash_top(corner + HASH_X);
-    uniform[2] = (vint)hash_top(corner + HASH_Y);
-    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y));
-}
+#include "model/counting_place.h"
 
 /* b(N, p) / (N p) for one light. */
 static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p)
@@ -90,9 +21,7 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
     for (int g = 0; g < GRID_COUNT; g++) {
         vint uniform[12];
         vfloat weight[12], dither[GRID_CELLS];
-        for (int c = 0; c < GRID_CELLS; c++)
-            angular_corners(&lattice, grid->cell[GRID_CELLS * g + c], grid->weight[GRID_CELLS * g + c], uniform + 4 * c,
-                            weight + 4 * c, dither + c);
+        angular_draws(&lattice, grid, g, uniform, weight, dither);
         sum = sum + binomial_weighted_sum(drawn * grid->share[g], &chance, uniform, weight, dither);
     }
     const vfloat expected = drawn * p;
@@ -106,18 +35,14 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
 void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t count, float *factor, float *facets)
 {
     for (size_t i = 0; i < count; i += GLINT_LANES) {
-        const vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
-        const vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
-        const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
-        const vfloat density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
-        const grid_ellipse ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, FACET_SHARE / density);
+        const counting_pixel pixel = counting_pixel_of(points, i);
         const grid_point grid =
-            grid_locate(load_d(points->u + i), load_d(points->v + i), &ellipse, load_u(points->seed + i));
-        const vfloat f = lit_factor(&grid, ellipse.area * density, load_f(points->hx + i), load_f(points->hy + i),
-                                    load_f(points->cap + i), load_f(points->p + i));
+            grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i));
+        const vfloat f = lit_factor(&grid, pixel.ellipse.area * pixel.density, load_f(points->hx + i),
+                                    load_f(points->hy + i), load_f(points->cap + i), load_f(points->p + i));
         /* A pixel without area is a mistake or the limit of one; it shows no single facet. */
-        const vmask flat = less(area, splat(LEAST_AREA));
+        const vmask flat = less(pixel.area, splat(LEAST_AREA));
         store_f(factor + i, choose(flat, splat(1.0F), f));
-        store_f(facets + i, area * density);
+        store_f(facets + i, pixel.area * pixel.density);
     }
 }

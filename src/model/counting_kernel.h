@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "model/tint.h"
+
 /* Points as a structure of arrays. All values are finite; density, cap and p are >= 0. */
 typedef struct counting_points {
     const double *u, *v;                    /* metres, below 1e15 in size */
@@ -23,9 +25,17 @@ typedef void counting_kernel(const counting_points *points, size_t count, float 
 
 counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;
 
+/* The same for facets of different colours, with a factor for each channel. A palette of one white colour gives the
+ * bits of counting_kernel. */
+typedef void counting_tinted(const counting_points *points, size_t count, const tint_palette *palette,
+                             float *const factor[3], float *facets);
+
+counting_tinted counting_tinted_1, counting_tinted_4, counting_tinted_8, counting_tinted_16;
+
 typedef struct counting_width {
     size_t lanes;
     counting_kernel *kernel;
+    counting_tinted *tinted;
 } counting_width;
 
 /* The widest kernel that this machine runs, at most max_lanes wide. */

@@ -69,8 +69,8 @@ static void find_point(const model_query *q, int discrete, point *p)
 static point_density density_at(const point *p, const glint_material_options *o, vec3 h, float target)
 {
     point_density d = { { 0.0F, 0.0F, 0.0F }, p->smooth_share * target };
-    const tint_palette palette = tint_palette_of(o);
-    const int is_colored = palette.count > 0 || palette.variation > 0.0F;
+    const int is_colored = tint_is_asked(o);
+    const tint_palette palette = is_colored ? tint_palette_of(o) : (tint_palette){ 0 };
     const float cosine = fmaxf(h.z, LEAST_COSINE), cosine2 = cosine * cosine;
     const slope at = { -h.x / cosine, -h.y / cosine };
     float tinted[3] = { d.plain, d.plain, d.plain };

@@ -19,6 +19,7 @@
 #include "model/explicit_area.h"
 #include "model/facet.h"
 #include "model/lobe.h"
+#include "model/tint.h"
 
 /* What every facet of one evaluation has in common. */
 typedef struct facet_sum {
@@ -28,8 +29,9 @@ typedef struct facet_sum {
     vec3 h;           /* half vector */
     float chord2;     /* square of the chord from the middle of the light's cap to its rim */
     uint32_t seed;
-    double density;         /* sum of what the facets add to D, averaged over the light */
-    const area_light *area; /* of real size: then rgb is summed instead, the lobe's integral over it */
+    const tint_palette *palette; /* NULL: all facets have the base colour, and density[0] is for all channels */
+    double density[3];           /* sum of what the facets add to D, averaged over the light */
+    const area_light *area;      /* of real size: then rgb is summed instead, the lobe's integral over it */
     double rgb[3];
 } facet_sum;
 
@@ -106,6 +108,13 @@ static float lit_part(const facet_sum *s, vec3 m)
     return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
 }
 
+static void tint_of_facet(const facet_sum *s, int64_t x, int64_t y, float tint[3])
+{
+    tint[0] = tint[1] = tint[2] = 1.0F;
+    if (s->palette)
+        tint_of_uniform(s->palette, (float)facet_tint_hash(s->q->material->options.facet_hash, x, y, s->seed), tint);
+}
+
 static void add_facet(int64_t x, int64_t y, double share, void *user)
 {
     facet_sum *s = user;
@@ -113,17 +122,26 @@ static void add_facet(int64_t x, int64_t y, double share, void *user)
     const vec3 h = facet_normal(&s->distribution, o->weighting, facet_hash(o->facet_hash, x, y, s->seed));
     /* What a facet of unit projected area, or of unit area, adds to D. */
     const float weight = o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? s->total_area : 1.0F / h.z;
+    float tint[3];
     if (s->area) {
         float rgb[3];
         explicit_area_facet(s->q, s->area, h, rgb);
+        tint_of_facet(s, x, y, tint);
         for (int c = 0; c < 3; c++)
-            s->rgb[c] += share * (double)(weight * rgb[c]);
+            s->rgb[c] += share * (double)(weight * rgb[c] * tint[c]);
         return;
     }
     const float lit = lit_part(s, h);
     if (!(lit > 0.0F))
         return;
-    s->density += share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit);
+    const double added = share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit);
+    if (!s->palette) {
+        s->density[0] += added;
+        return;
+    }
+    tint_of_facet(s, x, y, tint);
+    for (int c = 0; c < 3; c++)
+        s->density[c] += added * (double)tint[c];
 }
 
 /* The pixel in cells, which are round in the space where elongated facets are. */
@@ -157,9 +175,13 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
     value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
     if (!(area > 0.0) || value->over_limit)
         return;
-    facet_sum s = {
-        .q = q, .distribution = lobe_ndf(q), .seed = q->material->options.seed + q->footprint->seed, .area = &light
-    };
+    const int is_tinted = tint_is_asked(&q->material->options);
+    const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
+    facet_sum s = { .q = q,
+                    .palette = is_tinted ? &palette : NULL,
+                    .distribution = lobe_ndf(q),
+                    .seed = q->material->options.seed + q->footprint->seed,
+                    .area = &light };
     s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
     coverage_each(&pixel, add_facet, &s);
     const float g = q->surface->discreteness;
@@ -177,7 +199,7 @@ static void explicit_eval(const model_query *q, glint_value *value)
     lobe_value lobe;
     lobe_eval(q, &lobe);
     *value = (glint_value){ 0 };
-    float density = lobe.density;
+    float density[3] = { lobe.density, lobe.density, lobe.density };
     if (q->footprint && q->solid_angle_sr > 0.0F && q->surface->facets_per_m2 > 0.0F &&
         q->surface->discreteness > 0.0F) {
         const coverage_pixel pixel = pixel_of(q);
@@ -187,23 +209,28 @@ static void explicit_eval(const model_query *q, glint_value *value)
         value->lit_probability = lobe_lit_probability(q, &lobe, solid_angle);
         value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
         if (area > 0.0 && !value->over_limit) {
+            const int is_tinted = tint_is_asked(&q->material->options);
+            const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
             /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
              * pi. */
             facet_sum s = { .q = q,
+                            .palette = is_tinted ? &palette : NULL,
                             .distribution = lobe_ndf(q),
                             .h = lobe.h,
                             .chord2 = q->solid_angle_sr / MATH_PI,
                             .seed = q->material->options.seed + q->footprint->seed };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
             coverage_each(&pixel, add_facet, &s);
-            const float discrete = (float)(s.density / (double)q->solid_angle_sr);
             const float g = q->surface->discreteness;
-            density = (1.0F - g) * density + g * discrete;
+            for (int c = 0; c < 3; c++) {
+                const float discrete = (float)(s.density[is_tinted ? c : 0] / (double)q->solid_angle_sr);
+                density[c] = (1.0F - g) * density[c] + g * discrete;
+            }
         }
     }
     for (int c = 0; c < 3; c++) {
         value->smooth[c] = lobe.specular[c] + lobe.diffuse[c];
-        value->rgb[c] = lobe.reflectance[c] * density + lobe.diffuse[c];
+        value->rgb[c] = lobe.reflectance[c] * density[c] + lobe.diffuse[c];
     }
 }
 
@@ -217,7 +244,7 @@ const struct model explicit_model = {
     .name = "explicit",
     .features = GLINT_FEATURE_DISCRETE | GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC |
                 GLINT_FEATURE_SAMPLE | GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA |
-                GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+                GLINT_FEATURE_EQUAL_PROJECTED_AREA | GLINT_FEATURE_COLOR,
     .eval = explicit_eval,
     .eval_many = explicit_eval_many,
     .sample = lobe_sample,

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "io/example_map.h"
 #include "preview/preview.h"
 #include "scene/surface.h"
 
@@ -17,19 +18,21 @@ static void warn_of_unrendered(const scene *s, int index, const scene_glint *g, 
     const char *const path = s->path != NULL ? s->path : "scene";
     if (g == NULL || !(g->factor > 0.0F))
         return;
-    if (g->color_variation > 0.0F && !(glint_model_features(model) & GLINT_FEATURE_COLOR))
-        report_warning(r,
-                       "%s: materials/%d (\"%s\"): glintColorVariation %g is not rendered by the %s model; every facet "
-                       "has one colour",
-                       path, index, name_of(m), (double)g->color_variation, glint_model_name(model));
     if (g->density_variation > 0.0F && model != GLINT_MODEL_DICTIONARY)
         report_warning(
             r,
             "%s: materials/%d (\"%s\"): glintDensityVariation %g is not rendered by the %s model; the density is even",
             path, index, name_of(m), (double)g->density_variation, glint_model_name(model));
-    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
-        report_warning(r, "%s: materials/%d (\"%s\"): glintStructure \"example\" is rendered as \"flakes\"", path,
-                       index, name_of(m));
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE && model != GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): glintStructure \"example\" is not rendered by the %s model; flakes "
+                       "stand in for the normal map",
+                       path, index, name_of(m), glint_model_name(model));
+    if (g->structure != SCENE_STRUCTURE_EXAMPLE && model == GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): has no glintExampleTexture for the example model; 16 x 16 flat "
+                       "facets that follow its roughness stand in",
+                       path, index, name_of(m));
 }
 
 /* Glints that are laid out by texture coordinates need some. */
@@ -46,6 +49,24 @@ static void warn_of_missing_texcoords(const scene *s, scene_glint_layer layer, r
                            s->path != NULL ? s->path : "scene", mesh->name != NULL ? mesh->name : "a mesh", g->texcoord,
                            name_of(m));
     }
+}
+
+/* One layer before its material is made. The normals are what options.example.normals points to. */
+typedef struct layer_plan {
+    glint_material_options options;
+    float *normals;
+} layer_plan;
+
+static bool plan_layer(const scene *s, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
+{
+    const scene_material *const m = &s->materials[index];
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    glint_model wanted = (glint_model)model;
+    if (model == PREVIEW_MODEL_AUTO)
+        wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
+    warn_of_unrendered(s, index, g, wanted, r);
+    out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
+    return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
 }
 
 static bool shows_facets(const glint_material *layer)
@@ -67,18 +88,26 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const scene *s, int index, glint_model model, material_layers *out, report *r)
+static bool make_layers(const scene *s, int index, int model, material_layers *out, report *r)
 {
-    const scene_material *const m = &s->materials[index];
-    const glint_material_options base = scene_base_options(m, model);
-    if (!(m->clearcoat > 0.0F))
-        return make(s, index, &base, out, r);
-    const glint_material_options coat = scene_coat_options(m, model);
-    glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
-    whole.model = GLINT_MODEL_LAYERED;
-    whole.layers.base = &base;
-    whole.layers.coat = &coat;
-    return make(s, index, &whole, out, r);
+    const bool is_coated = s->materials[index].clearcoat > 0.0F;
+    layer_plan base = { 0 }, coat = { 0 };
+    bool done = plan_layer(s, index, SCENE_LAYER_BASE, model, &base, r) &&
+                (!is_coated || plan_layer(s, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
+    if (done && is_coated) {
+        glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
+        whole.model = GLINT_MODEL_LAYERED;
+        whole.layers.base = &base.options;
+        whole.layers.coat = &coat.options;
+        done = make(s, index, &whole, out, r);
+    } else if (done) {
+        done = make(s, index, &base.options, out, r);
+    }
+    out->base_mapped = base.normals != NULL;
+    out->coat_mapped = coat.normals != NULL;
+    free(base.normals);
+    free(coat.normals);
+    return done;
 }
 
 bool materials_make(const scene *s, int model, materials *out, report *r)
@@ -89,11 +118,8 @@ bool materials_make(const scene *s, int model, materials *out, report *r)
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
-    const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
-        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_BASE), wanted, r);
-        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_CLEARCOAT), wanted, r);
-        if (!make_layers(s, i, wanted, &out->layers[i], r)) {
+        if (!make_layers(s, i, model, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

@@ -57,6 +57,8 @@ typedef struct scene_glint {
     float color[3];
     scene_texture color_texture;
     float color_variation;
+    uint32_t color_count;              /* of colors */
+    float colors[GLINT_MAX_COLORS][3]; /* what facets are tinted with, relative to their mean */
     float elongation;
     float coverage;
     float density_variation;
@@ -68,7 +70,8 @@ typedef struct scene_glint {
     scene_glint_structure structure;
     scene_texture example_texture;
     scene_glint_placement example_placement;
-    float example_size; /* metres */
+    float example_size;                                        /* metres */
+    float example_rotation_variation, example_scale_variation; /* of scattered examples: rad, relative; either way */
 } scene_glint;
 
 typedef struct scene_material {

@@ -2,6 +2,7 @@
 #include "scene/surface.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The least roughness that libglint takes. */
 #define ALPHA_MIN 1e-4F
@@ -102,6 +103,18 @@ glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t)
     return s;
 }
 
+glint_model scene_model_of(const scene_glint *g)
+{
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
+        return GLINT_MODEL_EXAMPLE;
+    return g->density_variation > 0.0F ? GLINT_MODEL_DICTIONARY : GLINT_MODEL_COUNTING;
+}
+
+void scene_forget_directions(glint_surface *s)
+{
+    s->alpha_x = s->alpha_y;
+}
+
 static glint_material_options layer_options(const scene_material *m, glint_model model, scene_glint_layer layer)
 {
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
@@ -115,14 +128,16 @@ static glint_material_options layer_options(const scene_material *m, glint_model
         o.coverage = g->coverage;
         o.elongation = g->elongation;
         o.density_variation = fminf(g->density_variation, 8.0F); /* glTF sets no upper bound */
-        /* The one with GLINT_FEATURE_COLOR. */
-        if (model == GLINT_MODEL_DICTIONARY)
-            o.color_variation = g->color_variation;
+        o.color_variation = g->color_variation;
+        o.color_count = g->color_count;
+        memcpy(o.colors, g->colors, sizeof o.colors);
         /* A bit that no seed of a file has, so that equal seeds are not equal facets. */
         o.seed = layer == SCENE_LAYER_CLEARCOAT && has_glints(m, SCENE_LAYER_BASE) ? g->seed | 0x80000000U : g->seed;
     }
     const scene_texels t = scene_texels_of(m);
     o.surface = layer == SCENE_LAYER_BASE ? scene_base_surface(m, &t) : scene_coat_surface(m, &t);
+    if (o.model == GLINT_MODEL_EXAMPLE && scene_layer_glint(m, layer)->structure == SCENE_STRUCTURE_EXAMPLE)
+        scene_forget_directions(&o.surface);
     return o;
 }
 

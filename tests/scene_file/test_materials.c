@@ -108,6 +108,7 @@ static void glint_defaults_are_those_of_its_text(void **state)
     gltf_case *c = *state;
     const scene_glint *g = &read_material(c, "'extensions': { 'GLINT_materials_glint': {} }")->glint;
     assert_true(g->present && g->factor == 0.0F && g->density == 1e8F && g->facet_roughness == 0.05F);
+    assert_true(g->color_count == 0);
     assert_true(g->color[0] == 1.0F && g->color_variation == 0.0F && g->elongation == 1.0F && g->coverage == 1.0F);
     assert_true(g->density_variation == 0.0F && g->texcoord == 0 && g->uv_scale == 1.0F && g->seed == 0);
     assert_true(g->distribution == GLINT_DISTRIBUTION_GGX && g->space == SCENE_SPACE_UV &&
@@ -124,7 +125,8 @@ static void glint_properties_are_read(void **state)
              c, "'extensions': { 'GLINT_materials_glint': { 'glintFactor': 0.5, 'glintDistribution': 'beckmann',"
                 "'glintTexture': { 'index': 0 }, 'glintDensity': 2e6, 'glintDensityTexture': { 'index': 1 },"
                 "'glintFacetRoughness': 0.1, 'glintColorFactor': [0.2, 0.3, 0.4], 'glintColorTexture': { 'index': 2 },"
-                "'glintColorVariation': 0.6, 'glintElongation': 7, 'glintCoverage': 0.8, 'glintDensityVariation': 0.9,"
+                "'glintColorVariation': 0.6, 'glintColors': [[1, 0.5, 0], [0, 0.25, 0.75]], 'glintElongation': 7, "
+                "'glintCoverage': 0.8, 'glintDensityVariation': 0.9,"
                 "'glintSpace': 'object', 'glintTexCoord': 1, 'glintUvScale': 0.25, 'glintLayer': 'clearcoat',"
                 "'glintSeed': 2147483647, 'glintStructure': 'example', 'glintExampleTexture': { 'index': 1 },"
                 "'glintExamplePlacement': 'scattered', 'glintExampleSize': 0.03 } }")
@@ -134,6 +136,7 @@ static void glint_properties_are_read(void **state)
     assert_true(g->color_texture.srgb && !g->texture.srgb && !g->density_texture.srgb);
     assert_true(g->facet_roughness == 0.1F && g->color[2] == 0.4F && g->color_variation == 0.6F &&
                 g->elongation == 7.0F);
+    assert_true(g->color_count == 2 && g->colors[0][1] == 0.5F && g->colors[1][0] == 0.0F && g->colors[1][2] == 0.75F);
     assert_true(g->coverage == 0.8F && g->density_variation == 0.9F && g->space == SCENE_SPACE_OBJECT &&
                 g->texcoord == 1);
     assert_true(g->uv_scale == 0.25F && g->layer == SCENE_LAYER_CLEARCOAT && g->seed == 2147483647U);
@@ -161,6 +164,13 @@ static void glint_ranges_are_kept(void **state)
         { "glintFacetRoughness", "2", "expected a number from" },
         { "glintColorFactor", "[1, 1]", "found an array of 2, expected an array of 3 numbers" },
         { "glintColorVariation", "1.1", "expected a number from" },
+        { "glintColors", "[]", "found an array of 0, expected an array of 1 to 8 arrays of 3 numbers" },
+        { "glintColors", "[[1,1,1],[1,1,1],[1,1,1],[1,1,1],[1,1,1],[1,1,1],[1,1,1],[1,1,1],[1,1,1]]",
+          "found an array of 9, expected an array of 1 to 8 arrays of 3 numbers" },
+        { "glintColors", "[1, 0, 0]", "/0: found 1, expected an array of 3 numbers" },
+        { "glintColors", "[[1, 0, 0], [1, 0]]", "/1: found an array of 2, expected an array of 3 numbers" },
+        { "glintColors", "[[1, 0, 1.5]]", "/0/2: found 1.5, expected a number from 0 to 1" },
+        { "glintColors", "[[1, 0, 'x']]", "/0/2: found \"x\", expected a number" },
         { "glintElongation", "0.5", "expected a number of at least 1" },
         { "glintCoverage", "1.01", "expected a number from" },
         { "glintDensityVariation", "-1", "expected a number of at least 0" },

@@ -73,6 +73,122 @@ static void every_width_gives_the_same_bits(void **state)
     }
 }
 
+/* ---- facets of different colours ---- */
+
+/* A table of this many colours, some channels black, and a hue. */
+static tint_palette palette_of(uint32_t count, float variation)
+{
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.color_variation = variation;
+    o.color_count = count;
+    for (uint32_t i = 0; i < 3 * count; i++)
+        o.colors[i / 3][i % 3] = (float)(i * 5 % 7) / 7.0F;
+    return tint_palette_of(&o);
+}
+
+static void every_width_gives_the_same_tints(void **state)
+{
+    (void)state;
+    uint64_t random = 15;
+    static float reference[3][COUNT], facets[COUNT], factor[3][COUNT], other[COUNT];
+    float *const to_reference[3] = { reference[0], reference[1], reference[2] };
+    float *const to_factor[3] = { factor[0], factor[1], factor[2] };
+    for (uint32_t round = 0; round < 18; round++) {
+        const tint_palette palette = palette_of(round % 9, round < 9 ? 0.0F : 0.9F);
+        fill(&random);
+        counting_tinted_1(&points, COUNT, &palette, to_reference, facets);
+        for (size_t lanes = 4; lanes <= 16; lanes *= 2) {
+            counting_widest(lanes).tinted(&points, COUNT, &palette, to_factor, other);
+            assert_memory_equal(factor, reference, sizeof(factor));
+            assert_memory_equal(other, facets, sizeof(other));
+        }
+        for (int i = 0; i < 3 * COUNT; i++)
+            assert_true(isfinite(reference[i % 3][i / 3]) && reference[i % 3][i / 3] >= 0.0F);
+    }
+}
+
+static void one_white_color_gives_the_bits_of_the_plain_kernel(void **state)
+{
+    (void)state;
+    uint64_t random = 16;
+    static float plain[COUNT], facets[COUNT], factor[3][COUNT], other[COUNT];
+    float *const to_factor[3] = { factor[0], factor[1], factor[2] };
+    const tint_palette white = palette_of(0, 0.0F);
+    for (int round = 0; round < 10; round++) {
+        fill(&random);
+        const counting_width width = counting_widest(16);
+        width.kernel(&points, COUNT, plain, facets);
+        width.tinted(&points, COUNT, &white, to_factor, other);
+        for (int c = 0; c < 3; c++)
+            assert_memory_equal(factor[c], plain, sizeof(plain));
+        assert_memory_equal(other, facets, sizeof(facets));
+    }
+}
+
+/* The hues of a facet add up to white, so the mean of the channels is what it was without them. */
+static void hues_leave_the_mean_of_the_channels(void **state)
+{
+    (void)state;
+    uint64_t random = 17;
+    static float plain[COUNT], facets[COUNT], factor[3][COUNT];
+    float *const to_factor[3] = { factor[0], factor[1], factor[2] };
+    const tint_palette hues = palette_of(0, 1.0F);
+    for (int round = 0; round < 10; round++) {
+        fill(&random);
+        counting_kernel_1(&points, COUNT, plain, facets);
+        counting_tinted_1(&points, COUNT, &hues, to_factor, facets);
+        for (int i = 0; i < COUNT; i++) {
+            const double mean = ((double)factor[0][i] + (double)factor[1][i] + (double)factor[2][i]) / 3.0;
+            /* The polynomial of sin(pi x) is good to 2e-6; sums of 48 floats to 48 half ulp. */
+            assert_true(fabs(mean - (double)plain[i]) < 6e-6 * fmax((double)plain[i], 1.0));
+        }
+    }
+}
+
+/* A light that grows by a thousandth lights some facets more and puts out none. With T the most that a tint may be,
+ * X + sqrt(X) (T - 1) moves by no more than T for one facet more: colours pop no more than counts do. */
+static void colors_pop_no_more_than_counts(void **state)
+{
+    (void)state;
+    uint64_t random = 18;
+    static float plain[2][COUNT], facets[COUNT], factor[2][3][COUNT];
+    const tint_palette palette = palette_of(3, 1.0F);
+    double most = 1.0;
+    for (int i = 0; i < 9; i++)
+        most = fmax(most, 2.0 * (double)palette.color[i / 3][i % 3]);
+    long moved = 0;
+    for (int round = 0; round < 100; round++) {
+        fill(&random);
+        double expected[2][COUNT];
+        for (int k = 0; k < 2; k++) {
+            for (int i = 0; i < COUNT; i++) {
+                a.dudx[i] = a.dvdy[i] = 1e-3F;
+                a.dudy[i] = a.dvdx[i] = 0.0F;
+                a.u[i] = k ? a.u[i] : random_between(&random, -1.0, 1.0);
+                a.v[i] = k ? a.v[i] : random_between(&random, -1.0, 1.0);
+                a.density[i] = 2e7F; /* at most 9 in one grid, of which less than 8 are lit: counts are walked */
+                a.p[i] = k ? a.p[i] * 1.001F : (float)random_log_between(&random, 1e-3, 0.49);
+                expected[k][i] = 4.0 / 9.0 * 20.5 * (double)a.p[i];
+            }
+            float *const to_factor[3] = { factor[k][0], factor[k][1], factor[k][2] };
+            counting_kernel_1(&points, COUNT, plain[k], facets);
+            counting_tinted_1(&points, COUNT, &palette, to_factor, facets);
+        }
+        for (int i = 0; i < COUNT; i++) {
+            const double more = expected[1][i] * (double)plain[1][i] - expected[0][i] * (double)plain[0][i];
+            moved += more > 1e-3;
+            for (int c = 0; c < 3; c++) {
+                const double step = expected[1][i] * (double)factor[1][c][i] - expected[0][i] * (double)factor[0][c][i];
+                assert_true(fabs(step) <= most * fabs(more) + 1e-5 * (1.0 + expected[0][i] * most));
+            }
+        }
+    }
+    printf("%ld of %d counts moved\n", moved, 100 * COUNT);
+    assert_true(moved > 1000);
+}
+
+/* ---- mean and variance ---- */
+
 /* Facets that are counted: root of det(density J J^T + I / 2). */
 static double counted(int i)
 {
@@ -123,6 +239,43 @@ static void mean_is_one_and_variance_follows_from_the_blending(void **state)
             const double fraction = p[j] / (n[k] * 4.0 / 9.0 * (1.0 - p[j]));
             const double noise = 4.0 * sqrt((2.0 + 9.0 / (n[k] * p[j])) / m.count);
             assert_true(fabs(moments_variance(&m) / variance - 1.0) < 0.01 + fraction + noise);
+        }
+}
+
+/* A chroma part a.f of the factors has Var = 1/2 Var(a.T) / (N' p): the tints of all the facets that are lit, and of a
+ * fraction of one too. For hues and red less green Var(a.T) = 3/2. */
+static void chroma_varies_as_the_tints_of_lit_facets(void **state)
+{
+    (void)state;
+    static const double n[] = { 1.0, 30.0, 1e3, 1e6 }, p[] = { 1e-2, 0.4, 0.95 };
+    static float factor[3][COUNT], facets[COUNT];
+    float *const to_factor[3] = { factor[0], factor[1], factor[2] };
+    const tint_palette hues = palette_of(0, 1.0F);
+    const counting_width width = counting_widest(16);
+    uint64_t random = 19;
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 3; j++) {
+            moments m = { 0 }, inverse = { 0 };
+            for (int round = 0; round < 60; round++) {
+                fill(&random);
+                for (int i = 0; i < COUNT; i++) {
+                    a.dudx[i] = a.dvdy[i] = (float)random_log_between(&random, 1e-5, 1e-1);
+                    a.dudy[i] = a.dvdx[i] = 0.0F;
+                    a.density[i] = (float)n[k] / (a.dudx[i] * a.dudx[i]);
+                    a.p[i] = (float)p[j];
+                    moments_add(&inverse, 1.0 / counted(i));
+                }
+                width.tinted(&points, COUNT, &hues, to_factor, facets);
+                for (int i = 0; i < COUNT; i++)
+                    moments_add(&m, (double)factor[0][i] - (double)factor[1][i]);
+            }
+            const double expected = 0.5 * 1.5 * inverse.mean / p[j], sigma = moments_standard_error(&m);
+            printf("N %g p %g: chroma %+.1f sigma, variance over that of tints %.4f\n", n[k], p[j], m.mean / sigma,
+                   moments_variance(&m) / expected);
+            assert_true(fabs(m.mean) < 4.5 * sigma);
+            /* As for counts: 1 % for the blending, and noise. */
+            const double noise = 4.0 * sqrt((2.0 + 9.0 / (n[k] * p[j])) / m.count);
+            assert_true(fabs(moments_variance(&m) / expected - 1.0) < 0.01 + noise);
         }
 }
 
@@ -182,7 +335,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_width_gives_the_same_bits),
+        cmocka_unit_test(every_width_gives_the_same_tints),
+        cmocka_unit_test(one_white_color_gives_the_bits_of_the_plain_kernel),
+        cmocka_unit_test(hues_leave_the_mean_of_the_channels),
+        cmocka_unit_test(colors_pop_no_more_than_counts),
         cmocka_unit_test(mean_is_one_and_variance_follows_from_the_blending),
+        cmocka_unit_test(chroma_varies_as_the_tints_of_lit_facets),
         cmocka_unit_test(facet_larger_than_the_pixel_is_lit_or_not),
         cmocka_unit_test(origin_is_a_place_like_any_other),
     };

@@ -1,0 +1,106 @@
+/* Where the counting model counts, for all of its kernels: cells of the surface, and the lattice of half vectors that
+ * each of them has. In lanes.
+ *
+ * Deliot and Belcour 2023: grids, sections 4 to 6; angular cells, Eq. 14.
+ */
+#ifndef MODEL_COUNTING_PLACE_H
+#define MODEL_COUNTING_PLACE_H
+
+#include "footprint/grid.h"
+#include "math/hash.h"
+#include "model/counting_kernel.h"
+
+/* Blending four corners with bilinear weights v divides the variance by 1 / sum v^2, 9/4 in the mean. Drawing with 4/9
+ * of the facets gives it back: over a large patch the variance is that of the facets themselves. */
+#define ANGULAR_SHARE 0.444444444F
+
+/* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
+#define LEAST_COUNT 1e-20F
+
+/* A pixel well inside one facet sees it lit or not: variance (1 - p) / p. The blending over cells leaves half of the
+ * variance of a count, so the cells have half of a facet's area. Over a large patch the size of the cells does not
+ * matter. */
+#define FACET_SHARE 0.5F
+
+/* One facet on a square of a thousand kilometres: sparser than that counts as that. */
+#define LEAST_DENSITY 1e-12F
+#define LEAST_AREA 1e-30F
+
+/* What a pixel covers. */
+typedef struct counting_pixel {
+    grid_ellipse ellipse; /* convolved with a facet */
+    vfloat area, density; /* of the pixel itself; facets per m^2 */
+} counting_pixel;
+
+static inline counting_pixel counting_pixel_of(const counting_points *points, size_t i)
+{
+    const vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
+    const vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
+    counting_pixel p;
+    p.area = grid_area(dudx, dudy, dvdx, dvdy);
+    p.density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
+    p.ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, p.area, FACET_SHARE / p.density);
+    return p;
+}
+
+/* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
+#define ANGULAR_LEVELS 14
+
+typedef struct angular_lattice {
+    vuint x, y;    /* h in units of 2^-16 cells of the finer level */
+    vint level;    /* log2 of cells per unit */
+    vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
+} angular_lattice;
+
+/* A facet stays lit while h is within the cap, so a cell has the cap's area. Levels are powers of two; each cell of the
+ * surface takes one of the two nearest, with the chance that makes the mean area right: nothing moves when the cap
+ * changes size. */
+static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
+{
+    const vfloat area = min_f(max_f(cap, splat(1.0F / (1 << 2 * ANGULAR_LEVELS))), splat(1.0F));
+    angular_lattice l;
+    l.level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
+    const vfloat scale = exp2_i(l.level);
+    l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
+    l.x = (vuint)to_int(hx * scale * 65536.0F) + 0x40000000U;
+    l.y = (vuint)to_int(hy * scale * 65536.0F) + 0x40000000U;
+    return l;
+}
+
+/* Uniforms and weights of the four corners around h in the lattice of one surface cell. */
+static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat cell_weight, vint uniform[4],
+                                   vfloat weight[4], vfloat *dither)
+{
+    const vuint bits = hash_top(cell + HASH_X);
+    const vmask coarse = less_i((vint)(bits >> 16), (vint)l->coarser);
+    *dither = to_float((vint)(bits & 0xffffU)) * (1.0F / 65536.0F);
+    const vuint x = choose_u(coarse, l->x >> 1, l->x) + (cell & 0xffffU);
+    const vuint y = choose_u(coarse, l->y >> 1, l->y) + (cell >> 16);
+
+    const vfloat fx = to_float((vint)(x & 0xffffU)), fy = to_float((vint)(y & 0xffffU));
+    const vfloat gx = 65536.0F - fx;
+    const vfloat scaled = cell_weight * 2.3283064e-10F; /* 2^-32 */
+    const vfloat up = scaled * fy, down = scaled * (65536.0F - fy);
+    weight[0] = gx * down;
+    weight[1] = fx * down;
+    weight[2] = gx * up;
+    weight[3] = fx * up;
+
+    const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
+    const vuint corner = (cell + (x >> 16)) * HASH_X + (y >> 16) * HASH_Y + lattice;
+    uniform[0] = (vint)hash_top(corner);
+    uniform[1] = (vint)hash_top(corner + HASH_X);
+    uniform[2] = (vint)hash_top(corner + HASH_Y);
+    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y));
+}
+
+/* The twelve realisations of grid g, which share one (N, p). */
+static inline void angular_draws(const angular_lattice *l, const grid_point *grid, int g, vint uniform[12],
+                                 vfloat weight[12], vfloat dither[GRID_CELLS])
+{
+    for (int c = 0; c < GRID_CELLS; c++)
+        angular_corners(l, grid->cell[GRID_CELLS * g + c], grid->weight[GRID_CELLS * g + c], uniform + 4 * c,
+                        weight + 4 * c, dither + c);
+}
+
+#endif

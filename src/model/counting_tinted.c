@@ -1,0 +1,86 @@
+/* The counting model's inner loop for facets of different colours: a count and the tints of what was counted.
+ *
+ * Each of the 48 realisations has a tint T of its own, hashed with its cell and corner: white, 1, in the mean and
+ * independent of how many facets X are lit there. It adds X + sqrt(X) (T - 1), as X facets whose mean tint strays from
+ * white by 1 / sqrt(X). With s^2 the variance of T,
+ *
+ *     E = N p,    Var = Var X + s^2 E X
+ *
+ * are those of a sum of X independent colours, exactly and for every pair of channels too; and since blending treats
+ * both terms alike, block means have the variance of explicit facets, (1 - p + s^2) / (N p) (docs/models.md). Where a
+ * facet more is lit the sum moves by no more than that facet, and the hue stays.
+ */
+#include "model/counting_kernel.h"
+
+#include "math/binomial.h"
+#include "model/counting_place.h"
+#include "model/tint_lanes.h"
+
+/* Where every facet is lit only the tints are left to chance: sqrt(X) for all the facets of a realisation, X a real
+ * number; but of less than one facet no more than its own light, so that nothing is negative. */
+static vfloat all_lit(vfloat trials)
+{
+    return min_f(sqrt_f(trials), trials);
+}
+
+/* Adds weight * root * (T - 1) over twelve realisations; root: of the facets that are lit in each. */
+static void add_tints(const tint_palette *palette, const vuint *cell, const vint uniform[12], const vfloat weight[12],
+                      const vfloat root[12], vfloat sum[3])
+{
+    for (int i = 0; i < 12; i++) {
+        if (!any(less(splat(0.0F), root[i])))
+            continue;
+        /* Not of the uniform alone: where a facet is lit rarely, only few uniforms do it. */
+        const vuint hash = hash_full((vuint)uniform[i] + cell[i / 4] * HASH_Z);
+        vfloat tint[3];
+        tint_less_white(palette, tint_uniform_of(hash), tint);
+        for (int c = 0; c < 3; c++)
+            sum[c] = sum[c] + weight[i] * root[i] * tint[c];
+    }
+}
+
+/* The factors of the three channels for one light. */
+static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p,
+                        const tint_palette *palette, vfloat factor[3])
+{
+    const angular_lattice lattice = angular_locate(hx, hy, cap);
+    const binomial_chance chance = binomial_chance_of(p);
+    const vfloat drawn = facets * ANGULAR_SHARE;
+    const vmask sure = less_equal(splat(1.0F), p);
+    vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
+    for (int g = 0; g < GRID_COUNT; g++) {
+        vint uniform[12];
+        vfloat weight[12], dither[GRID_CELLS], count[12];
+        angular_draws(&lattice, grid, g, uniform, weight, dither);
+        const vfloat trials = drawn * grid->share[g];
+        sum = sum + binomial_weighted_draws(trials, &chance, uniform, weight, dither, count);
+        for (int i = 0; i < 12; i++)
+            count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
+        add_tints(palette, grid->cell + GRID_CELLS * g, uniform, weight, count, tints);
+    }
+    const vfloat expected = drawn * p, bounded = max_f(expected, splat(LEAST_COUNT));
+    const vmask rare = less(expected, splat(LEAST_COUNT));
+    for (int c = 0; c < 3; c++)
+        factor[c] = choose(rare, splat(1.0F),
+                           max_f(choose(sure, splat(1.0F), sum / bounded) + tints[c] / bounded, splat(0.0F)));
+}
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+
+void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t count, const tint_palette *palette,
+                                         float *const factor[3], float *facets)
+{
+    for (size_t i = 0; i < count; i += GLINT_LANES) {
+        const counting_pixel pixel = counting_pixel_of(points, i);
+        const grid_point grid =
+            grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i));
+        vfloat f[3];
+        lit_factors(&grid, pixel.ellipse.area * pixel.density, load_f(points->hx + i), load_f(points->hy + i),
+                    load_f(points->cap + i), load_f(points->p + i), palette, f);
+        const vmask flat = less(pixel.area, splat(LEAST_AREA));
+        for (int c = 0; c < 3; c++)
+            store_f(factor[c] + i, choose(flat, splat(1.0F), f[c]));
+        store_f(facets + i, pixel.area * pixel.density);
+    }
+}
