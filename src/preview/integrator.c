@@ -28,7 +28,7 @@ enum {
     DIM_SURROUNDINGS
 };
 
-/* Every depth of a path has dimensions of its own, with room for 2^20 lights. */
+/* Every depth of a path has dimensions of its own, with room for 2^19 lights, of which each may ask for two. */
 static uint32_t dimension(int depth, uint32_t purpose)
 {
     return ((uint32_t)depth << 20) + purpose;
