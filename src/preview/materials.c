@@ -51,14 +51,24 @@ static void warn_of_missing_texcoords(const scene *s, scene_glint_layer layer, r
     }
 }
 
+/* Those of another renderer: its hash of the cells of a flat grid. */
+static void choose_facets(preview_facets facets, glint_material_options *o)
+{
+    if (facets == PREVIEW_FACETS_OWN)
+        return;
+    o->weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
+    o->facet_hash = facets == PREVIEW_FACETS_POVRAY ? GLINT_FACET_HASH_POVRAY : GLINT_FACET_HASH_CYCLES;
+}
+
 /* One layer before its material is made. The normals are what options.example.normals points to. */
 typedef struct layer_plan {
     glint_material_options options;
     float *normals;
 } layer_plan;
 
-static bool plan_layer(const scene *s, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
+static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
 {
+    const scene *const s = all->scene;
     const scene_material *const m = &s->materials[index];
     const scene_glint *const g = scene_layer_glint(m, layer);
     glint_model wanted = (glint_model)model;
@@ -66,6 +76,7 @@ static bool plan_layer(const scene *s, int index, scene_glint_layer layer, int m
         wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
     warn_of_unrendered(s, index, g, wanted, r);
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
+    choose_facets(all->facets, &out->options);
     return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
 }
 
@@ -88,12 +99,13 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const scene *s, int index, int model, material_layers *out, report *r)
+static bool make_layers(const materials *all, int index, int model, material_layers *out, report *r)
 {
+    const scene *const s = all->scene;
     const bool is_coated = s->materials[index].clearcoat > 0.0F;
     layer_plan base = { 0 }, coat = { 0 };
-    bool done = plan_layer(s, index, SCENE_LAYER_BASE, model, &base, r) &&
-                (!is_coated || plan_layer(s, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
+    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, &base, r) &&
+                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
     if (done && is_coated) {
         glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
         whole.model = GLINT_MODEL_LAYERED;
@@ -110,16 +122,16 @@ static bool make_layers(const scene *s, int index, int model, material_layers *o
     return done;
 }
 
-bool materials_make(const scene *s, int model, materials *out, report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r)
 {
-    *out = (materials){ .scene = s };
+    *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
     out->layers = calloc(count, sizeof *out->layers);
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
     for (int i = 0; i < s->material_count; ++i) {
-        if (!make_layers(s, i, model, &out->layers[i], r)) {
+        if (!make_layers(out, i, model, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

@@ -2,6 +2,7 @@
 #ifndef PREVIEW_MATERIALS_H
 #define PREVIEW_MATERIALS_H
 
+#include "preview/preview.h"
 #include "scene/report.h"
 #include "scene/scene.h"
 
@@ -15,12 +16,13 @@ typedef struct material_layers {
 
 typedef struct materials {
     const scene *scene;
+    preview_facets facets;
     material_layers *layers; /* scene->material_count */
 } materials;
 
 /* model: a glint_model, or PREVIEW_MODEL_AUTO: for each material the one that shows what it asks for, see
  * scene_model_of. Warns of what a material asks for and its model does not render. */
-bool materials_make(const scene *s, int model, materials *out, report *r);
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r);
 void materials_free(materials *m);
 
 #endif

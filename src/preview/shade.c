@@ -166,9 +166,9 @@ static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g,
     }
 }
 
-static void place_glints(const hit *h, const hit_step *step, const scene_material *m, float choice, vec3 wo,
-                         shade_point *out)
+static void place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out)
 {
+    const scene_material *const m = &s->scene->materials[h->mesh->material];
     static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
     for (int i = 0; i < out->layer_count; ++i) {
         const scene_glint *const g = scene_layer_glint(m, of[i]);
@@ -176,6 +176,9 @@ static void place_glints(const hit *h, const hit_step *step, const scene_materia
             continue;
         float density_scale;
         out->layers[i].footprint = place_footprint(g, h, step, choice, &density_scale);
+        /* Other renderers know no objects' seeds: their facets hang on the texture coordinates alone. */
+        if (s->materials->facets != PREVIEW_FACETS_OWN)
+            out->layers[i].footprint.seed = 0U;
         out->layers[i].surface.facets_per_m2 *= density_scale;
         if (out->layers[i].mapped)
             align_to_map(&out->layers[i], h, g, choice, wo);
@@ -219,7 +222,7 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
     set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
     out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
-    place_glints(h, step, m, choice, wo, out);
+    place_glints(s, h, step, choice, wo, out);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
