@@ -69,7 +69,8 @@ static void weigh(const shade_point *p, const light *l, bool sharp, candidate *c
 static int spread(const shade_point *p, const light *l, vec3 origin, const double u[2], bool sharp, candidate *out)
 {
     for (int i = 0; i < SPREAD; ++i) {
-        const double place[2] = { 0.5 * (i % 2 + u[0]), 0.5 * (i / 2 + u[1]) };
+        const int column = i % 2, row = i / 2;
+        const double place[2] = { 0.5 * (column + u[0]), 0.5 * (row + u[1]) };
         const vec3 towards = v3_sub(light_point(l, place), origin);
         out[i].distance = v3_length(towards);
         out[i].direction = v3_normalize(towards);

@@ -73,7 +73,7 @@ bool emitters_make(const geometry *g, emitters *out, report *r)
     if (count == 0 || count > MOST_TRIANGLES) /* so many, and a ray finds them anyway */
         return true;
     out->triangles = malloc(count * sizeof *out->triangles);
-    out->edges = malloc((count + 1) * sizeof *out->edges);
+    out->edges = calloc(count + 1, sizeof *out->edges);
     out->first = malloc((size_t)g->scene->instance_count * sizeof *out->first);
     if (out->triangles == NULL || out->edges == NULL || out->first == NULL)
         return report_error(r, "no memory for %zu triangles that glow", count);
