@@ -74,8 +74,9 @@ void area_eval(const model_query *q, area_value *value)
     find_lit(q, &facets, value);
     integrate_base(q, &light, value);
     const float seen = 1.0F - clamp_to(q->area_light->hidden, 0.0F, 1.0F);
+    /* The cap stays whole: it sets the angular grid, and neighbouring samples that disagree a little on what is hidden
+     * must count the same facets. */
     value->lit_probability *= seen;
-    value->cap *= seen;
     for (int c = 0; c < 3; c++) {
         value->specular[c] = seen * q->material->options.coverage * (float)facets.specular[c];
         value->diffuse[c] *= seen;
