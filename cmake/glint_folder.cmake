@@ -15,19 +15,23 @@ if(GLINT_SANITIZE)
   target_link_options(glint_flags INTERFACE -fsanitize=${GLINT_SANITIZE})
 endif()
 
-# glint_view(<folder>): a directory that holds nothing but a link to src/<folder>. On the include path it lets
-# `#include "<folder>/x.h"` through and no other folder.
+# glint_view(<folder>): a directory that holds nothing but a link to src/<folder>, or to exporters. On the include path it
+# lets `#include "<folder>/x.h"` through and no other folder.
 function(glint_view folder)
   set(view ${PROJECT_BINARY_DIR}/views/${folder})
   file(MAKE_DIRECTORY ${view})
   if(folder STREQUAL "glint.h")
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/glint.h ${view}/glint.h SYMBOLIC)
+  elseif(folder STREQUAL "glint_export.h")
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/exporters/glint_export.h ${view}/glint_export.h SYMBOLIC)
+  elseif(folder STREQUAL "exporters")
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/exporters ${view}/exporters SYMBOLIC)
   else()
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${folder} ${view}/${folder} SYMBOLIC)
   endif()
 endfunction()
 
-# glint_folder(<name> SOURCES <file>... [SEES <folder>...]): the object library of one folder under src/.
+# glint_folder(<name> SOURCES <file>... [SEES <folder>...]): the object library of one folder.
 function(glint_folder name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;SEES")
   add_library(${name}_objects OBJECT ${arg_SOURCES})

@@ -5,6 +5,11 @@ install(TARGETS glint EXPORT libglint_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES src/glint.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET glint_export)
+  set_target_properties(glint_export PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS glint_export LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(FILES exporters/glint_export.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 
 # find_package(libglint) gives the target libglint::glint.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libglint)

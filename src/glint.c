@@ -14,7 +14,7 @@
 static const struct model *const models[] = {
     [GLINT_MODEL_SMOOTH] = &smooth_model,     [GLINT_MODEL_COUNTING] = &counting_model,
     [GLINT_MODEL_EXPLICIT] = &explicit_model, [GLINT_MODEL_DICTIONARY] = &dictionary_model,
-    [GLINT_MODEL_EXAMPLE] = &example_model,
+    [GLINT_MODEL_EXAMPLE] = &example_model,   [GLINT_MODEL_LAYERED] = &layered_model,
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
 
@@ -78,15 +78,6 @@ glint_result glint_model_find(const char *name, glint_model *model)
 
 /* ---- set-up ---- */
 
-/* Features that the options ask for; a model added later may lack some. */
-static uint32_t wanted_features(const glint_material_options *o)
-{
-    return (o->distribution == GLINT_DISTRIBUTION_GGX ? GLINT_FEATURE_GGX : GLINT_FEATURE_BECKMANN) |
-           (o->surface.alpha_x != o->surface.alpha_y ? GLINT_FEATURE_ANISOTROPIC : 0U) |
-           (o->color_variation > 0.0F || o->color_count > 0U ? GLINT_FEATURE_COLOR : 0U) |
-           (o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? GLINT_FEATURE_EQUAL_AREA : GLINT_FEATURE_EQUAL_PROJECTED_AREA);
-}
-
 static void *allocate_default(size_t byte_count, void *user)
 {
     (void)user;
@@ -104,10 +95,46 @@ static ndf ndf_of(glint_distribution distribution, const glint_surface *s)
     return (ndf){ distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN, s->alpha_x, s->alpha_y };
 }
 
+/* A material whose options have been checked. NULL: there is not enough memory. */
+static struct glint_material *make(const glint_material_options *o, struct glint_material *base,
+                                   struct glint_material *coat)
+{
+    const struct model *model = models[o->model];
+    struct glint_material *made = o->allocator.allocate(sizeof(*made), o->allocator.user);
+    if (!made)
+        return NULL;
+    const ndf n = ndf_of(o->distribution, &o->surface);
+    *made = (struct glint_material){ model, *o, ndf_total_area(&n), NULL, model->features, base, coat };
+    if (!model->setup || model->setup(made) == GLINT_OK)
+        return made;
+    o->allocator.release(made, o->allocator.user);
+    return NULL;
+}
+
+/* A layer takes its memory where the whole material does. */
+static struct glint_material *make_layer(const glint_material_options *layer, const glint_allocator *allocator)
+{
+    glint_material_options o = *layer;
+    o.allocator = *allocator;
+    return make(&o, NULL, NULL);
+}
+
+static struct glint_material *make_layered(const glint_material_options *o)
+{
+    struct glint_material *base = make_layer(o->layers.base, &o->allocator);
+    struct glint_material *coat = base ? make_layer(o->layers.coat, &o->allocator) : NULL;
+    struct glint_material *made = coat ? make(o, base, coat) : NULL;
+    if (!made) {
+        glint_material_destroy(coat);
+        glint_material_destroy(base);
+    }
+    return made;
+}
+
 glint_result glint_material_create(const glint_material_options *options, glint_material **material, char *message,
                                    size_t message_size)
 {
-    complaint c = { message, message_size, GLINT_OK };
+    complaint c = { message, message_size, GLINT_OK, NULL };
     if (message && message_size > 0)
         message[0] = '\0';
     if (!material)
@@ -117,40 +144,16 @@ glint_result glint_material_create(const glint_material_options *options, glint_
         complain(&c, GLINT_ERROR_ARGUMENT, "options is NULL");
         return c.result;
     }
-    /* An older client knows fewer members, a newer one more; neither is cut short without a word. */
-    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-    if (options->size != sizeof(o)) {
-        complain(&c, GLINT_ERROR_ARGUMENT,
-                 "options.size is %zu, expected %zu (set it with GLINT_MATERIAL_OPTIONS_INIT)", options->size,
-                 sizeof(o));
-        return c.result;
-    }
-    o = *options;
-    check_options(&c, &o);
+    check_options(&c, options);
     if (c.result != GLINT_OK)
         return c.result;
-    const struct model *model = models[o.model];
-    if (wanted_features(&o) & ~model->features) {
-        complain(&c, GLINT_ERROR_UNSUPPORTED, "model %s lacks a feature that the options ask for (bits %#x)",
-                 model->name, wanted_features(&o) & ~model->features);
-        return c.result;
-    }
+    glint_material_options o = *options;
     if (!o.allocator.allocate)
         o.allocator = (glint_allocator){ allocate_default, release_default, NULL };
-
-    struct glint_material *made = o.allocator.allocate(sizeof(*made), o.allocator.user);
-    if (made) {
-        const ndf n = ndf_of(o.distribution, &o.surface);
-        *made = (struct glint_material){ model, o, ndf_total_area(&n), NULL };
-        c.result = model->setup ? model->setup(made) : GLINT_OK;
-        if (c.result == GLINT_OK) {
-            *material = made;
-            return GLINT_OK;
-        }
-        o.allocator.release(made, o.allocator.user);
-        c.result = GLINT_OK;
-    }
-    complain(&c, GLINT_ERROR_MEMORY, "there is not enough memory for a material of model %s", model->name);
+    *material = o.model == GLINT_MODEL_LAYERED ? make_layered(&o) : make(&o, NULL, NULL);
+    if (!*material)
+        complain(&c, GLINT_ERROR_MEMORY, "there is not enough memory for a material of model %s",
+                 models[o.model]->name);
     return c.result;
 }
 
@@ -158,6 +161,8 @@ void glint_material_destroy(glint_material *material)
 {
     if (!material)
         return;
+    glint_material_destroy(material->coat);
+    glint_material_destroy(material->base);
     if (material->model->free)
         material->model->free(material);
     const glint_allocator a = material->options.allocator;
@@ -167,6 +172,16 @@ void glint_material_destroy(glint_material *material)
 glint_model glint_material_model(const glint_material *material)
 {
     return material->options.model;
+}
+
+uint32_t glint_material_features(const glint_material *material)
+{
+    return material->features;
+}
+
+const glint_material *glint_material_layer(const glint_material *material, glint_layer layer)
+{
+    return layer == GLINT_LAYER_COAT ? material->coat : material->base;
 }
 
 glint_surface glint_material_surface(const glint_material *material)
@@ -180,6 +195,7 @@ glint_surface glint_material_surface(const glint_material *material)
 typedef struct checked {
     model_query query;
     glint_surface surface;
+    glint_coat coat;
 } checked;
 
 static int is_unit(vec3 v)
@@ -207,7 +223,20 @@ static glint_surface clamp_surface(const glint_surface *s)
     }
     r.facets_per_m2 = clamp_to(s->facets_per_m2, 0.0F, 1e18F);
     r.discreteness = clamp_to(s->discreteness, 0.0F, 1.0F);
+    r.coat = NULL;
     return r;
+}
+
+/* False: its normal or its tangent is no direction. */
+static int clamp_coat(glint_coat *c, const glint_coat *from)
+{
+    static const glint_footprint degenerate = { 0 };
+    *c = *from;
+    c->surface = clamp_surface(&from->surface);
+    c->weight = clamp_to(from->weight, 0.0F, 1.0F);
+    if (from->footprint && !is_usable(from->footprint))
+        c->footprint = &degenerate;
+    return is_unit(vec3_from(from->normal)) && is_unit(vec3_from(from->tangent));
 }
 
 /* Fills all of *c but wi. False: there is nothing to see from wo. */
@@ -223,7 +252,14 @@ static int begin(checked *c, const glint_material *material, const glint_surface
                               .total_area = surface ? 0.0F : material->total_area,
                               .footprint = footprint && is_usable(footprint) ? footprint : NULL,
                               .wo = vec3_from(wo) };
-    return is_unit(c->query.wo) && c->query.wo.z > 0.0F;
+    if (!is_unit(c->query.wo))
+        return 0;
+    if (!material->base)
+        return c->query.wo.z > 0.0F;
+    if (!surface || !surface->coat)
+        return 1;
+    c->surface.coat = &c->coat;
+    return clamp_coat(&c->coat, surface->coat);
 }
 
 /* The light's side. False: wi is not lit. */
@@ -231,7 +267,7 @@ static int light_up(checked *c, const float wi[3], float solid_angle_sr)
 {
     c->query.wi = vec3_from(wi);
     c->query.solid_angle_sr = clamp_to(solid_angle_sr, 0.0F, 6.28318531F);
-    return is_unit(c->query.wi) && c->query.wi.z > 0.0F;
+    return is_unit(c->query.wi) && (c->query.material->base || c->query.wi.z > 0.0F);
 }
 
 static void make_finite(glint_value *value)
@@ -253,12 +289,41 @@ void glint_eval_value(const glint_material *material, const glint_surface *surfa
     make_finite(value);
 }
 
+void glint_eval_area(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,
+                     const float wo[3], const glint_area_light *light, glint_value *value)
+{
+    checked c;
+    *value = (glint_value){ 0 };
+    if (!light || !begin(&c, material, surface, footprint, wo))
+        return;
+    c.query.area_light = light;
+    material->model->eval(&c.query, value);
+    make_finite(value);
+}
+
 void glint_eval(const glint_material *material, const glint_surface *surface, const glint_footprint *footprint,
                 const float wo[3], const float wi[3], const glint_light *light, float rgb[3])
 {
     glint_value value;
     glint_eval_value(material, surface, footprint, wo, wi, light, &value);
     memcpy(rgb, value.rgb, sizeof(value.rgb));
+}
+
+void glint_transmittance(const glint_material *material, const glint_coat *coat, const float wo[3], const float *wi,
+                         float rgb[3])
+{
+    checked c;
+    rgb[0] = rgb[1] = rgb[2] = 0.0F;
+    if (!material)
+        return;
+    glint_surface surface = material->options.surface;
+    if (coat)
+        surface.coat = coat;
+    if (!begin(&c, material, &surface, NULL, wo) || (wi && !light_up(&c, wi, 0.0F)))
+        return;
+    rgb[0] = rgb[1] = rgb[2] = 1.0F;
+    if (material->model->transmittance)
+        material->model->transmittance(&c.query, wi == NULL, rgb);
 }
 
 int glint_sample_direction(const glint_material *material, const glint_surface *surface,
@@ -292,13 +357,23 @@ float glint_pdf(const glint_material *material, const glint_surface *surface, co
 
 static int has_all(const glint_batch *b)
 {
-    const void *const arrays[] = { b->u,      b->v,     b->dudx,  b->dudy,  b->dvdx,  b->dvdy,           b->wo[0],
-                                   b->wo[1],  b->wo[2], b->wi[0], b->wi[1], b->wi[2], b->solid_angle_sr, b->rgb[0],
-                                   b->rgb[1], b->rgb[2] };
+    const void *const arrays[] = { b->u,     b->v,     b->dudx,  b->dudy,   b->dvdx,   b->dvdy,
+                                   b->wo[0], b->wo[1], b->wo[2], b->rgb[0], b->rgb[1], b->rgb[2] };
     for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); i++)
         if (!arrays[i])
             return 0;
-    return 1;
+    return b->area_lights || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
+}
+
+/* The light of entry i. False: it lights nothing. */
+static int light_entry(checked *c, const glint_batch *b, size_t i)
+{
+    if (b->area_lights) {
+        c->query.area_light = &b->area_lights[i];
+        return 1;
+    }
+    const float wi[3] = { b->wi[0][i], b->wi[1][i], b->wi[2][i] };
+    return light_up(c, wi, b->solid_angle_sr[i]);
 }
 
 glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch)
@@ -317,7 +392,6 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
         for (size_t j = 0; j < count; j++) {
             const size_t i = start + j;
             const float wo[3] = { batch->wo[0][i], batch->wo[1][i], batch->wo[2][i] };
-            const float wi[3] = { batch->wi[0][i], batch->wi[1][i], batch->wi[2][i] };
             footprint[j] = (glint_footprint){ batch->u[i],
                                               batch->v[i],
                                               batch->dudx[i],
@@ -327,7 +401,7 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->seed ? batch->seed[i] : 0U };
             batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
             if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
-                !light_up(&c[j], wi, batch->solid_angle_sr[i]))
+                !light_entry(&c[j], batch, i))
                 continue;
             query[lit] = c[j].query;
             index[lit++] = i;

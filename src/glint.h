@@ -54,7 +54,8 @@ typedef enum glint_model {
     GLINT_MODEL_COUNTING,   /* a binomial count of the lit facets under the footprint */
     GLINT_MODEL_EXPLICIT,   /* every facet under the footprint, one by one: the truth, slow */
     GLINT_MODEL_DICTIONARY, /* a normalised distribution of hundreds of lobes for each patch; V-cavity masking */
-    GLINT_MODEL_EXAMPLE     /* a small normal map, repeated: scratches, brushed metal, leather (Xing et al. 2024) */
+    GLINT_MODEL_EXAMPLE,    /* a small normal map, repeated: scratches, brushed metal, leather (Xing et al. 2024) */
+    GLINT_MODEL_LAYERED     /* a coat of any of these over a base of any of these (Xing et al. 2024, section 6.4) */
 } glint_model;
 
 /* What a model can do. A material of a model without a feature refuses options that ask for it. */
@@ -77,7 +78,8 @@ GLINT_API uint32_t glint_model_count(void);
 GLINT_API const char *glint_model_name(glint_model model);
 /* The model with this name; GLINT_ERROR_RANGE when there is none, and *model stays as it was. */
 GLINT_API glint_result glint_model_find(const char *name, glint_model *model);
-/* A bit set of glint_feature; 0 when there is no such model. */
+/* A bit set of glint_feature; 0 when there is no such model. For layered, what layers may do: see
+ * glint_material_features. */
 GLINT_API uint32_t glint_model_features(glint_model model);
 
 /* ---- materials ---- */
@@ -103,14 +105,24 @@ typedef enum glint_facet_hash {
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
 } glint_facet_hash;
 
-/* What textures say about one point of the surface. */
+/* What textures say about one point of the surface; for layered, about the base. */
 typedef struct glint_surface {
     float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
     float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */
     float f0[3], f90[3];    /* [0, 1], facet reflectance head-on and at grazing angles, for GLINT_FRESNEL_SCHLICK */
     float facets_per_m2;    /* >= 0; 0 gives the smooth limit */
     float discreteness; /* [0, 1], share of the facets' light that is counted; the rest is smooth, the mean is kept */
+    const struct glint_coat *coat; /* layered model: the coat at this point; NULL: the material's own */
 } glint_surface;
+
+/* The upper layer of a layered material at one point. */
+typedef struct glint_coat {
+    glint_surface surface;       /* its own coat is not looked at */
+    float weight;                /* [0, 1], share of the surface that the coat covers */
+    float normal[3], tangent[3]; /* unit, in the local frame, which is the base's; a tangent that is not at right angles
+                                    to the normal is turned until it is */
+    const struct glint_footprint *footprint; /* where the coat's facets are laid out otherwise; NULL: as the base's */
+} glint_coat;
 
 typedef enum glint_example_placement {
     GLINT_EXAMPLE_TILED = 0, /* side by side, all with the same transform */
@@ -149,6 +161,17 @@ typedef struct glint_allocator {
     void *user;
 } glint_allocator;
 
+typedef enum glint_layer { GLINT_LAYER_BASE = 0, GLINT_LAYER_COAT } glint_layer;
+
+/* What GLINT_MODEL_LAYERED is made of. Each layer is a material of its own, with its own normal, density, seed and
+ * colours; where both count facets, give them different seeds, or they have the same facets in the same places.
+ * Nothing is read from the other options of a layered material but its model and its allocator. */
+typedef struct glint_layers {
+    const struct glint_material_options *base, *coat; /* read by glint_material_create only; not layered themselves */
+    float coat_weight;                                /* these three as in glint_coat */
+    float coat_normal[3], coat_tangent[3];
+} glint_layers;
+
 enum { GLINT_MAX_COLORS = 8 };
 
 typedef struct glint_material_options {
@@ -175,12 +198,13 @@ typedef struct glint_material_options {
     float colors[GLINT_MAX_COLORS][3]; /* [0, 1], what facets are tinted with, relative to their mean: each facet takes
                                           one, and the surface keeps its base colour */
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
+    glint_layers layers;               /* for GLINT_MODEL_LAYERED */
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
 #define GLINT_SURFACE_INIT                                                                                             \
     {                                                                                                                  \
-        0.25F, 0.25F, { 0.0F, 0.0F, 0.0F }, { 1.0F, 1.0F, 1.0F }, { 1.0F, 1.0F, 1.0F }, 1e8F, 1.0F                     \
+        0.25F, 0.25F, { 0.0F, 0.0F, 0.0F }, { 1.0F, 1.0F, 1.0F }, { 1.0F, 1.0F, 1.0F }, 1e8F, 1.0F, 0                  \
     }
 /* 16 x 16 flat facets that follow the roughness, tiled, mirrored at random. */
 #define GLINT_EXAMPLE_INIT                                                                                             \
@@ -188,12 +212,24 @@ typedef struct glint_material_options {
         0, 3U, 16U, 0.0F, GLINT_EXAMPLE_TILED, 0U, { 1.0F, 1.0F }, { 0.0F, 0.0F }, 0.0F, 0.0F, 0.0F, 0.0F, 1U, 0.5F,   \
             0.42466090F, 0.0F                                                                                          \
     }
+/* The whole surface, with the normal and the tangent of the base. */
+#define GLINT_COAT_INIT                                                                                                \
+    {                                                                                                                  \
+        GLINT_SURFACE_INIT, 1.0F, { 0.0F, 0.0F, 1.0F }, { 1.0F, 0.0F, 0.0F }, 0                                        \
+    }
+#define GLINT_LAYERS_INIT                                                                                              \
+    {                                                                                                                  \
+        0, 0, 1.0F, { 0.0F, 0.0F, 1.0F },                                                                              \
+        {                                                                                                              \
+            1.0F, 0.0F, 0.0F                                                                                           \
+        }                                                                                                              \
+    }
 #define GLINT_MATERIAL_OPTIONS_INIT                                                                                    \
     {                                                                                                                  \
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT                                                               \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT                                            \
     }
 
 typedef struct glint_material glint_material;
@@ -205,7 +241,13 @@ GLINT_API glint_result glint_material_create(const glint_material_options *optio
 /* NULL is allowed. */
 GLINT_API void glint_material_destroy(glint_material *material);
 GLINT_API glint_model glint_material_model(const glint_material *material);
-/* The surface that a call without one uses; start from it to change a part. */
+/* A bit set of glint_feature. Of a layered material: GLINT_FEATURE_DISCRETE and GLINT_FEATURE_COLOR where either layer
+ * has them, GLINT_FEATURE_SAMPLE_FOOTPRINT where no layer shows facets that its sampling does not know, the others
+ * where both have them. */
+GLINT_API uint32_t glint_material_features(const glint_material *material);
+/* A layer of a layered material, which it belongs to; NULL of other materials. */
+GLINT_API const glint_material *glint_material_layer(const glint_material *material, glint_layer layer);
+/* The surface that a call without one uses; start from it to change a part. Its coat belongs to the material. */
 GLINT_API glint_surface glint_material_surface(const glint_material *material);
 
 /* ---- built-in examples ---- */
@@ -255,12 +297,38 @@ typedef struct glint_light {
     float solid_angle_sr; /* > 0, at most 2 pi */
 } glint_light;
 
+typedef enum glint_area_kind {
+    GLINT_AREA_SUN = 0,   /* round, at infinity, of any solid angle */
+    GLINT_AREA_SPHERE,    /* shines outwards; from within there is nothing to see */
+    GLINT_AREA_RECTANGLE, /* center + x half_x + y half_y, |x| and |y| up to 1: a parallelogram */
+    GLINT_AREA_DISK,      /* center + x half_x + y half_y, x^2 + y^2 up to 1: an ellipse */
+    GLINT_AREA_POLYGON    /* flat and convex */
+} glint_area_kind;
+
+enum { GLINT_MAX_CORNERS = 8 };
+
+/* A light of real size, the same radiance from every point of it in every direction. It lies in the local frame of the
+ * shaded point, which is the origin: z the normal, x the tangent. Metres. Only what its kind names is read. */
+typedef struct glint_area_light {
+    glint_area_kind kind;
+    uint32_t two_sided; /* rectangle, disk, polygon. 0: it shines to the side of half_x x half_y, or to that from which
+                           the corners run counter-clockwise. 1: to both */
+    float hidden;       /* [0, 1], share of the light that something stands in front of: so much less light, and so
+                           many fewer facets that are lit */
+    float solid_angle_sr;                /* sun, (0, 2 pi] */
+    float radius;                        /* sphere */
+    float center[3];                     /* sun: direction to its middle, of any length */
+    float half_x[3], half_y[3];          /* rectangle, disk */
+    uint32_t corner_count;               /* polygon, 3 to GLINT_MAX_CORNERS */
+    float corners[GLINT_MAX_CORNERS][3]; /* polygon */
+} glint_area_light;
+
 /* All that evaluation knows about one point and one light. */
 typedef struct glint_value {
-    float rgb[3];          /* f(wo, wi) * |cos theta_i|, discrete */
+    float rgb[3];          /* f(wo, wi) * |cos theta_i|, discrete; of an area light: see glint_eval_area */
     float smooth[3];       /* the same without discreteness: the expectation of rgb over seeds */
-    float facet_count;     /* N, facets under the footprint */
-    float lit_probability; /* p, that one facet reflects the light to the viewer */
+    float facet_count;     /* N, facets under the footprint; of both layers together */
+    float lit_probability; /* p, that one facet reflects the light to the viewer; of a facet of either layer */
     int over_limit;        /* 1: the footprint touches more cells than facet_limit, and rgb is the smooth value */
 } glint_value;
 
@@ -271,9 +339,11 @@ typedef struct glint_value {
  * footprint  NULL or degenerate: the smooth limit
  * light      NULL or with a solid angle that is not positive: the smooth limit
  *
- * Returns linear RGB, zero where wo or wi is below the horizon.
+ * Returns linear RGB, zero where wo or wi is below the horizon; of a layered material, below that of both layers.
  * counting: L_smooth * b(N, p) / (N p), b a binomial count (Kneiphof and Klein 2024, Eq. 21).
  * dictionary: F D G2 / (4 cos_o), D the distribution of the patch (Chermain et al. 2020, Eq. 14).
+ * layered: base (1 - w (1 - T)) + w coat, w the coat's weight and T(wo, wi) what it lets through (Xing et al. 2024,
+ * Eq. 10); |cos theta_i| is each layer's own.
  */
 GLINT_API void glint_eval(const glint_material *material, const glint_surface *surface,
                           const glint_footprint *footprint, const float wo[3], const float wi[3],
@@ -283,6 +353,36 @@ GLINT_API void glint_eval(const glint_material *material, const glint_surface *s
 GLINT_API void glint_eval_value(const glint_material *material, const glint_surface *surface,
                                 const glint_footprint *footprint, const float wo[3], const float wi[3],
                                 const glint_light *light, glint_value *value);
+
+/* The integral of f(wo, wi) * cos theta_i over the directions in which the light is seen above the horizon, averaged
+ * over the footprint: a light of radiance L adds L * rgb to the pixel. There is no wi and no solid angle to multiply
+ * with, and what is below the horizon or turned away adds nothing.
+ *
+ * surface    NULL: the material's own
+ * footprint  NULL or degenerate: the smooth limit
+ * light      NULL, not finite, edge-on, behind the surface, of no area: zero
+ *
+ * counting: smooth * b(N, p) / (N p), p the integral of D over the half vectors that lie in the light (Kneiphof and
+ *           Klein 2024, Eqs. 12 to 16).
+ * explicit: every facet against the true shape; a rough facet by the part of its lobe that the shape takes in.
+ * dictionary, example: points of the light and directions of the material, weighted by multiple importance.
+ * docs/lights.md has the equations and the errors.
+ */
+GLINT_API void glint_eval_area(const glint_material *material, const glint_surface *surface,
+                               const glint_footprint *footprint, const float wo[3], const glint_area_light *light,
+                               glint_value *value);
+
+/* What the coat of a layered material leaves of the base: 1 - w (1 - T(wo, wi)), linear RGB in [0, 1]. For clients that
+ * evaluate the layers one by one, and for light that comes from below them.
+ *
+ * coat    NULL: the material's own
+ * wo, wi  in the frame of coat->normal, whatever it is
+ * wi      NULL: light from below, such as emission, which passes once: 1 - w (1 - t(wo))
+ *
+ * 1 for other materials; 0 where wo or wi is no direction.
+ */
+GLINT_API void glint_transmittance(const glint_material *material, const glint_coat *coat, const float wo[3],
+                                   const float *wi, float rgb[3]);
 
 typedef struct glint_sample {
     float wi[3];
@@ -317,19 +417,18 @@ typedef struct glint_batch {
     const uint32_t *seed;       /* NULL: 0 everywhere */
     const float *wo[3], *wi[3]; /* x, y and z apart */
     const float *solid_angle_sr;
-    const glint_surface *surfaces; /* NULL: the material's own everywhere */
-    float *rgb[3];                 /* out */
+    const glint_surface *surfaces;       /* NULL: the material's own everywhere */
+    float *rgb[3];                       /* out */
+    const glint_area_light *area_lights; /* NULL: caps. Else wi and solid_angle_sr are not read, and may be NULL */
 } glint_batch;
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0,                                   \
-        {                                                                                                              \
-            0, 0, 0                                                                                                    \
-        }                                                                                                              \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0                    \
     }
 
-/* glint_eval for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is missing. */
+/* glint_eval, or glint_eval_area, for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is
+ * missing. */
 GLINT_API glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch);
 
 #ifdef __cplusplus

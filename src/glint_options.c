@@ -15,8 +15,10 @@ void complain(complaint *c, glint_result result, const char *format, ...)
     c->result = result;
     if (c->text && c->size > 0) {
         va_list arguments;
+        const size_t length = (size_t)snprintf(c->text, c->size, "%s", c->scope ? c->scope : "");
         va_start(arguments, format);
-        vsnprintf(c->text, c->size, format, arguments);
+        if (length < c->size)
+            vsnprintf(c->text + length, c->size - length, format, arguments);
         va_end(arguments);
     }
 }
@@ -141,7 +143,27 @@ static void check_example(complaint *c, const glint_example *e)
         check_example_normals(c, e);
 }
 
-void check_options(complaint *c, const glint_material_options *o)
+/* |v|^2 is 1 give or take what rounding and typed digits do. */
+static void check_unit(complaint *c, const char *name, const float v[3])
+{
+    const float length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if (!in_range(length2, 0.98F, 1.02F))
+        complain(c, GLINT_ERROR_RANGE, "%s is (%g, %g, %g), expected a vector of length 1", name, (double)v[0],
+                 (double)v[1], (double)v[2]);
+}
+
+static void check_layers(complaint *c, const glint_layers *layers)
+{
+    if (!layers->base || !layers->coat)
+        complain(c, GLINT_ERROR_ARGUMENT, "layers.%s is NULL, expected the options of that layer",
+                 layers->base ? "coat" : "base");
+    check(c, "layers.coat_weight", layers->coat_weight, 0.0F, 1.0F);
+    check_unit(c, "layers.coat_normal", layers->coat_normal);
+    check_unit(c, "layers.coat_tangent", layers->coat_tangent);
+}
+
+/* The value of every option by itself. */
+static void check_values(complaint *c, const glint_material_options *o)
 {
     check_enum(c, "model", (unsigned)o->model, glint_model_count() - 1);
     check_enum(c, "distribution", (unsigned)o->distribution, GLINT_DISTRIBUTION_BECKMANN);
@@ -166,6 +188,55 @@ void check_options(complaint *c, const glint_material_options *o)
         }
     if (o->model == GLINT_MODEL_EXAMPLE)
         check_example(c, &o->example);
+    if (o->model == GLINT_MODEL_LAYERED)
+        check_layers(c, &o->layers);
     if (!o->allocator.allocate != !o->allocator.release)
         complain(c, GLINT_ERROR_ARGUMENT, "allocator has only one of allocate and release, expected both or neither");
+}
+
+/* Features that the options ask for; a model added later may lack some. */
+static uint32_t wanted_features(const glint_material_options *o)
+{
+    return (o->distribution == GLINT_DISTRIBUTION_GGX ? GLINT_FEATURE_GGX : GLINT_FEATURE_BECKMANN) |
+           (o->surface.alpha_x != o->surface.alpha_y ? GLINT_FEATURE_ANISOTROPIC : 0U) |
+           (o->color_variation > 0.0F || o->color_count > 0U ? GLINT_FEATURE_COLOR : 0U) |
+           (o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? GLINT_FEATURE_EQUAL_AREA : GLINT_FEATURE_EQUAL_PROJECTED_AREA);
+}
+
+/* Whether a material can be made from these options, but for its layers. */
+static void check_material(complaint *c, const glint_material_options *o)
+{
+    /* An older client knows fewer members, a newer one more; neither is cut short without a word. */
+    if (o->size != sizeof(*o)) {
+        complain(c, GLINT_ERROR_ARGUMENT, "size is %zu, expected %zu (set it with GLINT_MATERIAL_OPTIONS_INIT)",
+                 o->size, sizeof(*o));
+        return;
+    }
+    check_values(c, o);
+    if (c->result != GLINT_OK)
+        return;
+    if (wanted_features(o) & ~glint_model_features(o->model))
+        complain(c, GLINT_ERROR_UNSUPPORTED, "model %s lacks a feature that the options ask for (bits %#x)",
+                 glint_model_name(o->model), wanted_features(o) & ~glint_model_features(o->model));
+}
+
+/* The options of both layers. */
+static void check_both_layers(complaint *c, const glint_layers *layers)
+{
+    const glint_material_options *const both[2] = { layers->base, layers->coat };
+    static const char *const names[2] = { "layers.base.", "layers.coat." };
+    for (int i = 0; i < 2 && c->result == GLINT_OK; i++) {
+        c->scope = names[i];
+        check_material(c, both[i]);
+        if (c->result == GLINT_OK && both[i]->model == GLINT_MODEL_LAYERED)
+            complain(c, GLINT_ERROR_UNSUPPORTED, "model is layered, expected a model of one layer");
+    }
+    c->scope = NULL;
+}
+
+void check_options(complaint *c, const glint_material_options *o)
+{
+    check_material(c, o);
+    if (c->result == GLINT_OK && o->model == GLINT_MODEL_LAYERED)
+        check_both_layers(c, &o->layers);
 }

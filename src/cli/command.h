@@ -13,8 +13,11 @@ enum { COMMAND_DONE = 0, COMMAND_BAD_INPUT = 1, COMMAND_WRONG_USAGE = 2 };
 int command_render(int argc, char **argv);
 int command_compare(int argc, char **argv);
 int command_eval(int argc, char **argv);
+int command_export(int argc, char **argv);
+int command_export_gltf(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
+int command_validate(int argc, char **argv);
 
 /* A report whose warnings go to standard error as they come and, with --json, into the document as well. It must stay
  * where it is, because the report points to it. */

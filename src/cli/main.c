@@ -15,7 +15,9 @@ static const struct subcommand {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
     { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },
+    { "export", "write a scene for other programs: glTF", command_export },
     { "inspect", "say what is in a glTF scene", command_inspect },
+    { "validate", "check the glint materials of glTF files and presets", command_validate },
     { "materials", "list the material presets, or show one", command_materials },
 };
 

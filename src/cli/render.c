@@ -15,6 +15,11 @@
 
 #define AT(member) offsetof(render_values, member)
 
+static const char *on_or_off(int index)
+{
+    return index == 0 ? "on" : index == 1 ? "off" : NULL;
+}
+
 static const argument_rule rules[] = {
     { .name = "output",
       .letter = 'o',
@@ -59,6 +64,30 @@ static const argument_rule rules[] = {
       .help = "a variant of the file (KHR_materials_variants)",
       .kind = ARGUMENT_TEXT,
       .target = AT(variant) },
+    { .name = "environment",
+      .value = "MAP.hdr|.exr",
+      .help = "light from all around: a latitude-longitude map",
+      .kind = ARGUMENT_TEXT,
+      .target = AT(environment) },
+    { .name = "environment-rotation",
+      .value = "DEG",
+      .help = "turns the map, counter-clockwise seen from above; 0",
+      .kind = ARGUMENT_NUMBER,
+      .min = -36000,
+      .max = 36000,
+      .target = AT(environment_rotation_deg) },
+    { .name = "environment-exposure",
+      .value = "EV",
+      .help = "multiplies the map's light by 2^EV; 0",
+      .kind = ARGUMENT_NUMBER,
+      .min = -64,
+      .max = 64,
+      .target = AT(environment_exposure_ev) },
+    { .name = "environment-background",
+      .help = "whether the camera sees what is around; off leaves alpha 0; on",
+      .kind = ARGUMENT_CHOICE,
+      .choice = on_or_off,
+      .target = AT(environment_background) },
     { .name = "bounces",
       .value = "N",
       .help = "bounces of indirect light; 1",
@@ -134,6 +163,8 @@ static int check_usage(const render_values *v)
         return arguments_wrong(&syntax, "--aov: a PNG holds no further channels; write an .exr");
     if (!png && !isnan(v->exposure_ev))
         return arguments_wrong(&syntax, "--exposure: an EXR is scene-linear; the exposure is for a .png");
+    if (render_light_check(&syntax, v) != COMMAND_DONE)
+        return COMMAND_WRONG_USAGE;
     const int64_t *t = v->tile;
     const bool given = t[0] || t[1] || t[2] || t[3];
     if (given && (t[2] < 1 || t[3] < 1 || t[0] + t[2] > v->size[0] || t[1] + t[3] > v->size[1]))
@@ -205,10 +236,12 @@ static bool render_scene(const scene *s, render_record *record, const atomic_boo
     options.progress = progress_update;
     options.user = &bar;
     options.cancel = cancel;
-    if (!pick_camera(s, v->camera, &options.camera, r))
-        return false;
-    const bool done = preview_render(s, &options, picture, &record->statistics, r);
+    options.transparent = v->environment_background == 1;
+    render_light light = { 0 };
+    const bool done = pick_camera(s, v->camera, &options.camera, r) && render_light_begin(v, &light, &options, r) &&
+                      preview_render(s, &options, picture, &record->statistics, r);
     progress_end(&bar);
+    render_light_end(&light);
     return done && !atomic_load(cancel);
 }
 
@@ -256,7 +289,12 @@ static int render(const char *path, const render_values *values)
 
 int command_render(int argc, char **argv)
 {
-    render_values values = { .size = { 1280, 720 }, .spp = 16, .bounces = 1, .exposure_ev = (double)NAN };
+    render_values values = { .size = { 1280, 720 },
+                             .spp = 16,
+                             .bounces = 1,
+                             .exposure_ev = (double)NAN,
+                             .environment_rotation_deg = (double)NAN,
+                             .environment_exposure_ev = (double)NAN };
     const char *path;
     int code = COMMAND_DONE;
     switch (arguments_parse(&syntax, argc, argv, &values, &path)) {

@@ -13,6 +13,9 @@ typedef struct render_values {
     int64_t spp, threads, seed, bounces;
     int model;          /* see arguments_model_choice */
     double exposure_ev; /* NAN: not given */
+    const char *environment;
+    double environment_rotation_deg, environment_exposure_ev; /* NAN: not given */
+    int environment_background;                               /* 0 on, 1 off */
     bool aov, json;
 } render_values;
 
@@ -22,6 +25,22 @@ typedef struct render_record {
     double read_s, write_s, total_s;
     preview_statistics statistics;
 } render_record;
+
+/* ---- render_light.c: light that the command line brings ---- */
+
+/* What the renderer's options point to. */
+typedef struct render_light {
+    environment_map map;
+    preview_environment environment;
+} render_light;
+
+/* Exit code of wrong usage for options that mean nothing without another. */
+int render_light_check(const argument_syntax *syntax, const render_values *v);
+/* Reads the environment and points options to it. */
+bool render_light_begin(const render_values *v, render_light *light, preview_options *options, report *r);
+void render_light_end(render_light *light);
+
+/* ---- render_record.c ---- */
 
 /* Writes the picture with the settings that its pixels depend on as metadata: no time, no place, no number of threads,
  * so that the same command gives the same bytes anywhere. */

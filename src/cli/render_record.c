@@ -31,6 +31,11 @@ static char *join_materials(const assignments *a)
     return NULL;
 }
 
+static double number_or(double given, double otherwise)
+{
+    return isnan(given) ? otherwise : given;
+}
+
 static bool write_exr(const render_record *record, const image *picture, report *r)
 {
     const render_values *v = record->values;
@@ -45,6 +50,9 @@ static bool write_exr(const render_record *record, const image *picture, report 
     snprintf(spp, sizeof spp, "%" PRId64, v->spp);
     snprintf(seed, sizeof seed, "%" PRId64, v->seed);
     snprintf(bounces, sizeof bounces, "%" PRId64, v->bounces);
+    char rotation[32], exposure[32];
+    snprintf(rotation, sizeof rotation, "%.9g", number_or(v->environment_rotation_deg, 0.0));
+    snprintf(exposure, sizeof exposure, "%.9g", number_or(v->environment_exposure_ev, 0.0));
     const image_text metadata[] = {
         { "glint:version", glint_version() },
         { "glint:model", arguments_model_choice(v->model) },
@@ -56,6 +64,10 @@ static bool write_exr(const render_record *record, const image *picture, report 
         { "glint:camera", v->camera ? v->camera : "" },
         { "glint:variant", v->variant ? v->variant : "" },
         { "glint:materials", materials },
+        { "glint:environment", v->environment ? v->environment : "" },
+        { "glint:environment-rotation", rotation },
+        { "glint:environment-exposure", exposure },
+        { "glint:environment-background", v->environment_background == 1 ? "off" : "on" },
     };
     const bool done = image_write_exr(v->output, picture, metadata, sizeof metadata / sizeof metadata[0], r);
     free(materials);
@@ -105,6 +117,11 @@ int render_print_document(const render_record *record, document *warnings)
     document_set_text(d, "model", arguments_model_choice(v->model));
     document_set_integer(d, "seed", (uint64_t)v->seed);
     document_set_integer(d, "bounces", (uint64_t)v->bounces);
+    if (v->environment) {
+        document_set_text(d, "environment", v->environment);
+        document_set_number(d, "environment_rotation_deg", number_or(v->environment_rotation_deg, 0.0));
+        document_set_number(d, "environment_exposure_ev", number_or(v->environment_exposure_ev, 0.0));
+    }
     document_set(d, "seconds", seconds_of(record));
     document_set_integer(rays, "camera", s->camera_rays);
     document_set_integer(rays, "shadow", s->shadow_rays);

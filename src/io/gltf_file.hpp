@@ -34,6 +34,8 @@ struct gltf_file {
 
 // ---- gltf_resource.cpp: what URIs and buffer views name ----
 
+// The file that a relative URI names. Throws a file_error for an absolute one and for one that leaves the folder.
+std::string gltf_path_of_uri(const gltf_file &file, const std::string &uri, const std::string &pointer);
 // Fills buffers. root has passed gltf::check_schema.
 void gltf_load_buffers(gltf_file &file, const json &root, byte_view bin, bool has_bin);
 // Appends one scene_image for every element of the root array "images".

@@ -57,9 +57,9 @@ void complete_tangents(gltf_file &file, const std::string &pointer, const scene_
 void warn_of_missing_texcoords(gltf_file &file, const std::string &pointer, const scene_material &material,
                                const geometry &g)
 {
-    for (const scene_texture *t :
-         { &material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-           &material.occlusion_texture, &material.emissive_texture, &material.glint.texture })
+    for (const scene_texture *t : { &material.base_color_texture, &material.metallic_roughness_texture,
+                                    &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
+                                    &material.glint.texture, &material.coat_glint.texture })
         if (t->image != SCENE_NONE && g.texcoord[t->texcoord].empty())
             file.warn(pointer, "the material uses TEXCOORD_" + std::to_string(t->texcoord) +
                                    ", which the primitive has not; its textures are read at (0, 0)");

@@ -1,18 +1,16 @@
-// What hangs on the nodes of the scene: instances of meshes, cameras and lights.
+// What hangs on the nodes of the scene: instances of meshes and cameras; gltf_light.cpp reads the lights.
 #include <algorithm>
 #include <cmath>
 
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_graph.hpp"
+#include "io/gltf_light.hpp"
 #include "io/scene_memory.hpp"
 
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double sun_diameter_rad = 0.00929; // of the sun seen from the earth
-constexpr int max_instances = 1 << 26;       // our choice: 6 GB of them
-constexpr double bulb_radius_m = 0.01;       // our choice: a small lamp
+constexpr int max_instances = 1 << 26; // our choice: 6 GB of them
 
 struct node_reader {
     gltf_file &file;
@@ -20,11 +18,6 @@ struct node_reader {
     const std::vector<gltf_mesh_range> &meshes;
     scene *s;
 };
-
-std::string name_of(const std::string &first, const std::string &second, const char *kind, int number)
-{
-    return !first.empty() ? first : !second.empty() ? second : std::string(kind) + " " + std::to_string(number);
-}
 
 // ---- meshes ----
 
@@ -131,7 +124,7 @@ void read_camera(node_reader &r, size_t number, const std::string &pointer)
     const tinygltf::Camera &camera = r.file.model.cameras[static_cast<size_t>(node.camera)];
     const bool perspective = camera.type == "perspective";
     scene_camera *out = scene_append(&r.s->cameras, &r.s->camera_count);
-    out->name = scene_string(name_of(node.name, camera.name, "camera", r.s->camera_count - 1));
+    out->name = scene_string(gltf_name_of(node.name, camera.name, "camera", r.s->camera_count - 1));
     out->projection = perspective ? SCENE_PERSPECTIVE : SCENE_ORTHOGRAPHIC;
     out->yfov_rad = static_cast<float>(camera.perspective.yfov);
     out->aspect = static_cast<float>(camera.perspective.aspectRatio);
@@ -139,44 +132,6 @@ void read_camera(node_reader &r, size_t number, const std::string &pointer)
     out->ymag = static_cast<float>(std::abs(camera.orthographic.ymag));
     out->znear = static_cast<float>(perspective ? camera.perspective.znear : camera.orthographic.znear);
     out->zfar = static_cast<float>(perspective ? camera.perspective.zfar : camera.orthographic.zfar);
-    store(r.graph.to_world[number], pointer, out->to_world);
-}
-
-// ---- lights ----
-
-// A number in the extras of a light, which no schema has seen.
-float extra(const tinygltf::Light &light, const char *name, double otherwise, double high, const std::string &pointer)
-{
-    const tinygltf::Value *value = gltf_member(light.extras, name);
-    if (!value)
-        return static_cast<float>(otherwise);
-    const double number = value->IsNumber() ? value->GetNumberAsDouble() : -1.0;
-    if (!(number >= 0.0 && number <= high))
-        throw file_error(pointer + "/extras/" + name,
-                         "found " + (value->IsNumber() ? json(number).dump() : std::string("no number")) +
-                             ", expected one from 0 to " + json(high).dump());
-    return static_cast<float>(number);
-}
-
-void read_light(node_reader &r, size_t number, size_t light_number, const std::string &pointer)
-{
-    const tinygltf::Light &light = r.file.model.lights[light_number];
-    const std::string light_pointer = json_pointer("/extensions/KHR_lights_punctual/lights", light_number);
-    scene_light *out = scene_append(&r.s->lights, &r.s->light_count);
-    out->name = scene_string(name_of(r.file.model.nodes[number].name, light.name, "light", r.s->light_count - 1));
-    out->kind = light.type == "directional" ? SCENE_LIGHT_DIRECTIONAL
-                : light.type == "spot"      ? SCENE_LIGHT_SPOT
-                                            : SCENE_LIGHT_POINT;
-    for (size_t k = 0; k < 3; k++)
-        out->color[k] = light.color.size() == 3 ? static_cast<float>(light.color[k]) : 1.0F;
-    out->intensity = static_cast<float>(light.intensity);
-    out->range = static_cast<float>(light.range);
-    out->inner_cone_rad = static_cast<float>(light.spot.innerConeAngle);
-    out->outer_cone_rad = static_cast<float>(light.spot.outerConeAngle);
-    if (out->kind == SCENE_LIGHT_DIRECTIONAL)
-        out->angular_diameter_rad = extra(light, "angularDiameter", sun_diameter_rad, pi, light_pointer);
-    else
-        out->radius_m = extra(light, "radius", bulb_radius_m, 1e6, light_pointer);
     store(r.graph.to_world[number], pointer, out->to_world);
 }
 
@@ -193,7 +148,6 @@ void gltf_read_nodes(gltf_file &file, const std::vector<gltf_mesh_range> &meshes
             read_mesh(r, number, pointer);
         if (node.camera >= 0)
             read_camera(r, number, pointer);
-        if (const tinygltf::Value *light = gltf_extension(node.extensions, "KHR_lights_punctual"))
-            read_light(r, number, static_cast<size_t>(gltf_integer(*light, "light", 0)), pointer);
+        gltf_read_lights(file, node, graph.to_world[number], pointer, s);
     }
 }

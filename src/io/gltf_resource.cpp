@@ -131,27 +131,12 @@ bool leads_out(const std::string &folder, const std::string &path)
     return std::string(target.get()).compare(0, prefix.size(), prefix) != 0;
 }
 
-std::string path_of_uri(const gltf_file &file, const std::string &uri, const std::string &pointer)
-{
-    const std::string quoted = json_excerpt(json(uri));
-    if (has_scheme(uri))
-        throw file_error(pointer,
-                         "found the absolute URI " + quoted + ", expected a path relative to the file's folder");
-    const std::string relative = percent_decode(uri);
-    if (relative.empty() || relative[0] == '/' || relative.find('\0') != relative.npos)
-        throw file_error(pointer, "found the URI " + quoted + ", expected a path relative to the file's folder");
-    std::string path = file.folder + "/" + relative;
-    if (climbs(relative) || leads_out(file.folder, path))
-        throw file_error(pointer, "found the URI " + quoted + ", which leaves the file's folder");
-    return path;
-}
-
 std::vector<uint8_t> buffer_from_uri(const gltf_file &file, const std::string &uri, const std::string &pointer)
 {
     if (is_data_uri(uri))
         return data_uri_bytes(uri, pointer);
     try {
-        return file_bytes(path_of_uri(file, uri, pointer), max_buffer_bytes);
+        return file_bytes(gltf_path_of_uri(file, uri, pointer), max_buffer_bytes);
     } catch (const file_error &e) {
         throw file_error(pointer, e.place.empty() ? uri + " " + e.text : e.text);
     }
@@ -178,7 +163,7 @@ void read_image(const gltf_file &file, const json &image, const std::string &poi
     scene_image *out = scene_append(&s->images, &s->image_count);
     const std::string uri = has_uri ? image["uri"].get<std::string>() : "";
     if (has_uri && !is_data_uri(uri)) {
-        const std::string path = path_of_uri(file, uri, json_pointer(pointer, "uri"));
+        const std::string path = gltf_path_of_uri(file, uri, json_pointer(pointer, "uri"));
         out->path = scene_string(path);
         out->name = image_name(path, pointer);
         return;
@@ -200,6 +185,21 @@ void read_image(const gltf_file &file, const json &image, const std::string &poi
 }
 
 } // namespace
+
+std::string gltf_path_of_uri(const gltf_file &file, const std::string &uri, const std::string &pointer)
+{
+    const std::string quoted = json_excerpt(json(uri));
+    if (has_scheme(uri))
+        throw file_error(pointer,
+                         "found the absolute URI " + quoted + ", expected a path relative to the file's folder");
+    const std::string relative = percent_decode(uri);
+    if (relative.empty() || relative[0] == '/' || relative.find('\0') != relative.npos)
+        throw file_error(pointer, "found the URI " + quoted + ", expected a path relative to the file's folder");
+    std::string path = file.folder + "/" + relative;
+    if (climbs(relative) || leads_out(file.folder, path))
+        throw file_error(pointer, "found the URI " + quoted + ", which leaves the file's folder");
+    return path;
+}
 
 void gltf_load_buffers(gltf_file &file, const json &root, byte_view bin, bool has_bin)
 {

@@ -84,6 +84,58 @@ void check_light(const json &light, const std::string &pointer)
                                                                json(outer).dump());
 }
 
+// The array of that name, with count elements or, where count is 0, with some; the tables know no nested arrays.
+const json &check_array(const json &object, const char *name, const std::string &pointer, size_t count,
+                        const char *what)
+{
+    const std::string expected = "expected an array of " + (count > 0 ? std::to_string(count) + " " : "") + what;
+    if (!object.contains(name))
+        throw file_error(pointer, std::string("found no \"") + name + "\", " + expected);
+    const json &array = object[name];
+    if (!array.is_array() || array.empty() || (count > 0 && array.size() != count))
+        throw file_error(json_pointer(pointer, name), "found " + json_excerpt(array) + ", " + expected);
+    return array;
+}
+
+void check_row(const json &row, const std::string &pointer, size_t count, const char *what)
+{
+    if (!row.is_array() || row.size() != count)
+        throw file_error(pointer,
+                         "found " + json_excerpt(row) + ", expected an array of " + std::to_string(count) + " " + what);
+}
+
+void check_faces(const json &faces, const std::string &pointer, size_t image_count)
+{
+    check_row(faces, pointer, 6, "images");
+    for (size_t i = 0; i < 6; i++)
+        if (!faces[i].is_number_unsigned() || faces[i].get<uint64_t>() >= image_count)
+            throw file_error(json_pointer(pointer, i), "found " + json_excerpt(faces[i]) +
+                                                           ", expected an index into \"images\", of which there are " +
+                                                           std::to_string(image_count));
+}
+
+void check_image_based_light(const json &light, const std::string &pointer, size_t image_count)
+{
+    const json &images = check_array(light, "specularImages", pointer, 0, "mip levels");
+    for (size_t level = 0; level < images.size(); level++)
+        check_faces(images[level], json_pointer(pointer + "/specularImages", level), image_count);
+    const json &bands = check_array(light, "irradianceCoefficients", pointer, 9, "colours");
+    for (size_t i = 0; i < bands.size(); i++) {
+        const std::string here = json_pointer(pointer + "/irradianceCoefficients", i);
+        check_row(bands[i], here, 3, "numbers");
+        for (size_t k = 0; k < 3; k++)
+            if (!bands[i][k].is_number())
+                throw file_error(json_pointer(here, k), "found " + json_excerpt(bands[i][k]) + ", expected a number");
+    }
+    const json turn = light.value("rotation", json::array({ 0.0, 0.0, 0.0, 1.0 }));
+    double length = 0.0;
+    for (const json &part : turn)
+        length = std::hypot(length, part.get<double>());
+    if (!(std::abs(length - 1.0) < 0.01)) // as exporters round
+        throw file_error(pointer + "/rotation",
+                         "found a quaternion of length " + json(length).dump() + ", expected length 1");
+}
+
 void check_node(const json &node, const std::string &pointer)
 {
     for (const char *part : { "translation", "rotation", "scale" })
@@ -101,6 +153,11 @@ void check_rules(const json &root)
     for_each(root, "/cameras", check_camera);
     for_each(root, "/nodes", check_node);
     for_each(root, "/extensions/KHR_lights_punctual/lights", check_light);
+    const size_t image_count = root.contains("images") ? root["images"].size() : 0;
+    for_each(root, "/extensions/EXT_lights_image_based/lights",
+             [image_count](const json &light, const std::string &pointer) {
+                 check_image_based_light(light, pointer, image_count);
+             });
 }
 
 } // namespace gltf

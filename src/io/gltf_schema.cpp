@@ -18,11 +18,6 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double max_integer = 9007199254740991.0; // 2^53 - 1: exact in a double
 
-[[noreturn]] void wrong(const std::string &pointer, const json &found, const std::string &expected)
-{
-    throw file_error(pointer, "found " + json_excerpt(found) + ", expected " + expected);
-}
-
 std::string number_text(double value)
 {
     char text[32];
@@ -51,25 +46,30 @@ std::string count_text(const property &p)
 class checker
 {
   public:
-    explicit checker(json &root) : root_(root)
+    checker(json &root, const finding_visitor &visit) : root_(root), visit_(visit)
     {
     }
 
     void check_object(json &value, const schema &s, const std::string &pointer)
     {
         if (!value.is_object())
-            wrong(pointer, value, "an object");
+            return wrong("TYPE", pointer, value, "an object");
         for (const property &p : s.properties) {
             const auto found = value.find(p.name);
             if (found != value.end())
                 check_property(*found, p, json_pointer(pointer, p.name));
             else if (p.required)
-                throw file_error(pointer, std::string("found no \"") + p.name + "\", which is required");
+                visit_({ "REQUIRED", pointer, std::string("no \"") + p.name + "\"", "" });
         }
         check_extensions(value, s, pointer);
     }
 
   private:
+    void wrong(const char *code, const std::string &pointer, const json &found, const std::string &expected)
+    {
+        visit_({ code, pointer, json_excerpt(found), expected });
+    }
+
     void check_extensions(json &value, const schema &s, const std::string &pointer)
     {
         const auto found = value.find("extensions");
@@ -77,13 +77,13 @@ class checker
             return;
         const std::string here = json_pointer(pointer, "extensions");
         if (!found->is_object())
-            wrong(here, *found, "an object");
+            return wrong("TYPE", here, *found, "an object");
         for (auto &item : found->items())
             if (!item.value().is_object())
-                wrong(json_pointer(here, item.key()), item.value(), "an object");
+                wrong("TYPE", json_pointer(here, item.key()), item.value(), "an object");
         for (const extension &e : s.extensions) {
             const auto known = found->find(e.name);
-            if (known != found->end())
+            if (known != found->end() && known->is_object())
                 check_object(*known, *e.schema, json_pointer(here, e.name));
         }
     }
@@ -93,11 +93,11 @@ class checker
         switch (p.kind) {
         case kind::boolean:
             if (!value.is_boolean())
-                wrong(pointer, value, "true or false");
+                wrong("TYPE", pointer, value, "true or false");
             break;
         case kind::text:
             if (!value.is_string())
-                wrong(pointer, value, "a string");
+                wrong("TYPE", pointer, value, "a string");
             break;
         case kind::number:
             check_number(value, p, pointer);
@@ -123,20 +123,20 @@ class checker
         }
     }
 
-    static void check_number(const json &value, const property &p, const std::string &pointer)
+    void check_number(const json &value, const property &p, const std::string &pointer)
     {
         // Renderers keep single precision.
         constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
         const double number = value.is_number() ? value.get<double>() : infinity;
         if (std::abs(number) > largest || number < p.low || (p.above_low && number == p.low) || number > p.high)
-            wrong(pointer, value, "a number" + range_text(p));
+            wrong(value.is_number() ? "RANGE" : "TYPE", pointer, value, "a number" + range_text(p));
     }
 
-    static void check_integer(json &value, const property &p, const std::string &pointer)
+    void check_integer(json &value, const property &p, const std::string &pointer)
     {
         const double number = value.is_number() ? value.get<double>() : infinity;
         if (!(number >= p.low && number <= p.high) || number != std::floor(number))
-            wrong(pointer, value, "an integer" + range_text(p));
+            return wrong(value.is_number() ? "RANGE" : "TYPE", pointer, value, "an integer" + range_text(p));
         if (value.is_number_float() || number >= 0.0)
             value = number >= 0.0 ? json(static_cast<uint64_t>(number)) : json(static_cast<int64_t>(number));
     }
@@ -146,9 +146,9 @@ class checker
         const size_t count = array_size(p.of);
         const double number = value.is_number() ? value.get<double>() : infinity;
         if (!(number >= 0.0 && number < static_cast<double>(count)) || number != std::floor(number))
-            wrong(pointer, value,
-                  std::string("an index into \"") + p.of + "\", of which there " +
-                      (count == 1 ? "is 1" : "are " + std::to_string(count)));
+            return wrong("INDEX", pointer, value,
+                         std::string("an index into \"") + p.of + "\", of which there " +
+                             (count == 1 ? "is 1" : "are " + std::to_string(count)));
         value = static_cast<uint64_t>(number);
     }
 
@@ -162,7 +162,7 @@ class checker
         return sizes_[where] = size;
     }
 
-    static void check_choice(json &value, const property &p, const std::string &pointer)
+    void check_choice(json &value, const property &p, const std::string &pointer)
     {
         if (value.is_number_float() && std::abs(value.get<double>()) < max_integer &&
             value.get<double>() == std::floor(value.get<double>()))
@@ -177,13 +177,13 @@ class checker
                 return;
             start = end + 1;
         }
-        wrong(pointer, value, "one of " + std::string(choices));
+        wrong("ENUM", pointer, value, "one of " + std::string(choices));
     }
 
     void check_map(json &value, const property &p, const std::string &pointer)
     {
         if (!value.is_object())
-            wrong(pointer, value, "an object");
+            return wrong("TYPE", pointer, value, "an object");
         for (auto &item : value.items()) {
             const std::string here = json_pointer(pointer, item.key());
             if (p.kind == kind::integer_map)
@@ -196,13 +196,14 @@ class checker
     void check_array(json &value, const property &p, const std::string &pointer)
     {
         if (!value.is_array() || value.size() < p.min_items || value.size() > p.max_items)
-            wrong(pointer, value, "an array of " + count_text(p) + item_text(p.kind));
+            return wrong(value.is_array() ? "COUNT" : "TYPE", pointer, value,
+                         "an array of " + count_text(p) + item_text(p.kind));
         std::set<json> seen;
         for (size_t i = 0; i < value.size(); i++) {
             const std::string here = json_pointer(pointer, i);
             check_item(value[i], p, here);
             if ((p.kind == kind::indices || p.kind == kind::texts) && !seen.insert(value[i]).second)
-                wrong(here, value[i], "each value only once");
+                wrong("DUPLICATE", here, value[i], "each value only once");
         }
     }
 
@@ -226,7 +227,7 @@ class checker
             break;
         default:
             if (!value.is_string())
-                wrong(pointer, value, "a string");
+                wrong("TYPE", pointer, value, "a string");
         }
     }
 
@@ -247,6 +248,7 @@ class checker
     }
 
     json &root_;
+    const finding_visitor &visit_;
     std::map<std::string, size_t> sizes_;
 };
 
@@ -337,9 +339,19 @@ property integer_map(const char *name, double low, double high)
     return { name, kind::integer_map, "", nullptr, low, high };
 }
 
+std::string finding_text(const finding &f)
+{
+    return "found " + f.found + (f.expected.empty() ? ", which is required" : ", expected " + f.expected);
+}
+
+void check_schema(json &root, const finding_visitor &visit)
+{
+    checker(root, visit).check_object(root, root_schema(), "");
+}
+
 void check_schema(json &root)
 {
-    checker(root).check_object(root, root_schema(), "");
+    check_schema(root, [](const finding &f) { throw file_error(f.pointer, finding_text(f)); });
 }
 
 } // namespace gltf

@@ -2,6 +2,7 @@
 #ifndef IO_GLTF_SCHEMA_HPP
 #define IO_GLTF_SCHEMA_HPP
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -63,6 +64,7 @@ struct schema {
 // The tables: glTF 2.0 itself, then one function for the extensions of each kind of object.
 const schema &root_schema();
 const std::vector<extension> &root_extensions();
+const std::vector<extension> &scene_extensions();
 const std::vector<extension> &node_extensions();
 const std::vector<extension> &primitive_extensions();
 const std::vector<extension> &material_extensions();
@@ -89,8 +91,21 @@ property index_map(const char *name, const char *of);
 property index_maps(const char *name, const char *of);
 property integer_map(const char *name, double low, double high);
 
-// Throws a file_error with the JSON pointer of the first value that breaks a table. Integers that are written as 3.0 or
-// 3e0, which glTF 2.0 section 2.7.1 allows, become integers.
+// A value that breaks a table.
+struct finding {
+    const char *code; // TYPE, RANGE, INDEX, ENUM, COUNT, DUPLICATE or REQUIRED
+    std::string pointer, found, expected;
+};
+using finding_visitor = std::function<void(const finding &)>;
+
+// "found X, expected Y"
+std::string finding_text(const finding &f);
+
+// Tells of every value that breaks a table. Integers that are written as 3.0 or 3e0, which glTF 2.0 section 2.7.1
+// allows, become integers.
+void check_schema(json &root, const finding_visitor &visit);
+
+// The same, but throws a file_error for the first.
 void check_schema(json &root);
 
 } // namespace gltf

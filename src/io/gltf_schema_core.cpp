@@ -131,7 +131,7 @@ schema node_schema()
 
 schema scene_schema()
 {
-    return { { indices("nodes", "nodes", 0), text("name") }, {} };
+    return { { indices("nodes", "nodes", 0), text("name") }, scene_extensions() };
 }
 
 schema skin_schema()

@@ -10,8 +10,11 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double max_int = 2147483647.0;
+constexpr double max_intensity = 1e30; // our choice: products with it stay finite in single precision
 constexpr double half_pi = 1.5707963267948966;
 constexpr const char *lights = "extensions/KHR_lights_punctual/lights";
+constexpr const char *area_lights = "extensions/EXT_lights_area/lights";
+constexpr const char *image_based_lights = "extensions/EXT_lights_image_based/lights";
 constexpr const char *variants = "extensions/KHR_materials_variants/variants";
 
 const schema &lights_schema()
@@ -23,6 +26,28 @@ const schema &lights_schema()
     static const schema light = { { text("name"), numbers("color", 3, 0.0, infinity),
                                     number("intensity", 0.0, infinity), choice("type", "directional|point|spot").must(),
                                     number_above("range", 0.0), object("spot", spot) },
+                                  {} };
+    static const schema all = { { objects("lights", light, 0).must() }, {} };
+    return all;
+}
+
+const schema &area_lights_schema()
+{
+    static const schema rect = { { number_above("aspect", 0.0) }, {} };
+    static const schema light = { { text("name"), numbers("color", 3, 0.0, infinity),
+                                    number("intensity", 0.0, max_intensity), choice("type", "rect|disk").must(),
+                                    number_above("size", 0.0), object("rect", rect) },
+                                  {} };
+    static const schema all = { { objects("lights", light, 0).must() }, {} };
+    return all;
+}
+
+// The arrays of arrays, specularImages and irradianceCoefficients, are left to gltf_rules.cpp.
+const schema &image_based_lights_schema()
+{
+    static const schema light = { { text("name"), numbers("rotation", 4, -infinity, infinity),
+                                    number("intensity", 0.0, max_intensity),
+                                    integer("specularImageSize", 1, max_int).must() },
                                   {} };
     static const schema all = { { objects("lights", light, 0).must() }, {} };
     return all;
@@ -100,15 +125,26 @@ schema glint_schema()
 const std::vector<extension> &root_extensions()
 {
     static const std::vector<extension> all = { { "KHR_lights_punctual", &lights_schema() },
+                                                { "EXT_lights_area", &area_lights_schema() },
+                                                { "EXT_lights_image_based", &image_based_lights_schema() },
                                                 { "KHR_materials_variants", &variants_schema() } };
+    return all;
+}
+
+const std::vector<extension> &scene_extensions()
+{
+    static const schema light = { { index("light", image_based_lights).must() }, {} };
+    static const std::vector<extension> all = { { "EXT_lights_image_based", &light } };
     return all;
 }
 
 const std::vector<extension> &node_extensions()
 {
     static const schema light = { { index("light", lights).must() }, {} };
+    static const schema area_light = { { index("light", area_lights).must() }, {} };
     static const schema instancing = { { index_map("attributes", "accessors").must() }, {} };
     static const std::vector<extension> all = { { "KHR_lights_punctual", &light },
+                                                { "EXT_lights_area", &area_light },
                                                 { "EXT_mesh_gpu_instancing", &instancing } };
     return all;
 }

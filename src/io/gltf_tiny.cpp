@@ -14,7 +14,9 @@
 namespace
 {
 
-constexpr std::array<const char *, 14> known_extensions = {
+constexpr std::array<const char *, 16> known_extensions = {
+    "EXT_lights_area",
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "GLINT_materials_glint",
     "KHR_draco_mesh_compression",

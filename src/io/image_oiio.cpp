@@ -232,12 +232,7 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
 
 bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
 {
-    image_bytes bytes;
-    if (!image_bytes_load(&picture, &bytes, r))
-        return false;
-    const bool decoded = guarded(picture.name, r, [&] { return decode_texels(bytes, picture.name, out, r); });
-    image_bytes_free(&bytes);
-    if (!decoded)
+    if (!mipmap_decode(&picture, out, r))
         return false;
     if (srgb && !mipmap_decode_srgb(out))
         return report_error(r, "%s: does not fit into memory", picture.name);
@@ -311,6 +306,16 @@ struct textures {
     OIIO::TextureSystem *system;
     std::vector<texture_source> sources;
 };
+
+bool mipmap_decode(const scene_image *picture, mipmap *out, report *r)
+{
+    image_bytes bytes;
+    if (!image_bytes_load(picture, &bytes, r))
+        return false;
+    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
+    image_bytes_free(&bytes);
+    return decoded;
+}
 
 bool image_read(const char *path, image *out, report *r)
 {

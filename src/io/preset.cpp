@@ -2,6 +2,8 @@
 //
 // Textures of a preset refer to the arrays "textures", "images" and "samplers" of its extras, which mean what they mean
 // at the root of a glTF file; URIs are relative to the preset's folder.
+#include "io/preset.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +21,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char *suffix = ".gltf-material.json";
-constexpr uint64_t max_preset_bytes = uint64_t{ 1 } << 24; // our choice: presets are written by hand
 
 struct freed {
     void operator()(scene *s) const
@@ -62,21 +63,9 @@ bool is_path(const std::string &name)
     return name.find('/') != name.npos || (name.size() > 5 && name.compare(name.size() - 5, 5, ".json") == 0);
 }
 
-std::string preset_path(const std::string &name)
-{
-    if (is_path(name))
-        return name;
-    const std::string folder = preset_folder();
-    const std::vector<std::string> names = preset_names(folder);
-    if (!std::binary_search(names.begin(), names.end(), name))
-        throw file_error("",
-                         "found no preset of this name in " + folder + ", expected one of: " + near_names(name, names));
-    return folder + "/" + name + suffix;
-}
-
 json preset_material(const std::string &path)
 {
-    const std::vector<uint8_t> bytes = file_bytes(path, max_preset_bytes);
+    const std::vector<uint8_t> bytes = file_bytes(path, preset_max_bytes);
     const std::string_view text(reinterpret_cast<const char *>(bytes.data()), bytes.size());
     json material = json_parse(text);
     if (!material.is_object())
@@ -84,34 +73,14 @@ json preset_material(const std::string &path)
     return material;
 }
 
-// The smallest glTF document around a material.
-json document_around(json material)
-{
-    json root = { { "asset", { { "version", "2.0" } } } };
-    const json extras = material.value("extras", json::object());
-    for (const char *array : { "textures", "images", "samplers" })
-        if (extras.is_object() && extras.contains(array))
-            root[array] = extras[array];
-    root["materials"] = json::array({ std::move(material) });
-    return root;
-}
-
-// Places in the document as places in the preset's file.
-std::string place_in_preset(const std::string &place)
-{
-    const std::string material = "/materials/0";
-    if (place.compare(0, material.size(), material) == 0)
-        return place.substr(material.size());
-    return place.empty() ? place : "/extras" + place;
-}
-
 std::vector<scene_texture *> textures_of(scene_material *m)
 {
-    return { &m->base_color_texture,          &m->metallic_roughness_texture, &m->normal_texture,
-             &m->occlusion_texture,           &m->emissive_texture,           &m->specular_texture,
-             &m->specular_color_texture,      &m->anisotropy_texture,         &m->clearcoat_texture,
-             &m->clearcoat_roughness_texture, &m->clearcoat_normal_texture,   &m->glint.texture,
-             &m->glint.density_texture,       &m->glint.color_texture,        &m->glint.example_texture };
+    const scene_texture *list[SCENE_MATERIAL_TEXTURES];
+    scene_material_textures(m, list);
+    std::vector<scene_texture *> all;
+    for (const scene_texture *texture : list)
+        all.push_back(const_cast<scene_texture *>(texture)); // of m, which may be changed
+    return all;
 }
 
 // Moves the images of a preset behind those of the scene and the material with them.
@@ -136,9 +105,9 @@ void read_preset(const std::string &path, scene *s, scene_material *out, report 
     scene preset = {};
     const std::unique_ptr<scene, freed> owner(&preset); // also when an exception passes
     try {
-        gltf_read_document(file, document_around(std::move(material)), {}, false, &preset);
+        gltf_read_document(file, preset_document(std::move(material)), {}, false, &preset);
     } catch (const file_error &e) {
-        throw file_error(place_in_preset(e.place), e.text);
+        throw file_error(preset_place(e.place), e.text);
     }
     move_into(&preset, s, out);
 }
@@ -195,6 +164,37 @@ void apply(scene *s, const std::string &material_name, const scene_material &pre
 }
 
 } // namespace
+
+json preset_document(json material)
+{
+    json root = { { "asset", { { "version", "2.0" } } } };
+    const json extras = material.value("extras", json::object());
+    for (const char *array : { "textures", "images", "samplers" })
+        if (extras.is_object() && extras.contains(array))
+            root[array] = extras[array];
+    root["materials"] = json::array({ std::move(material) });
+    return root;
+}
+
+std::string preset_place(const std::string &place)
+{
+    const std::string material = "/materials/0";
+    if (place.compare(0, material.size(), material) == 0)
+        return place.substr(material.size());
+    return place.empty() ? place : "/extras" + place;
+}
+
+std::string preset_path(const std::string &name)
+{
+    if (is_path(name))
+        return name;
+    const std::string folder = preset_folder();
+    const std::vector<std::string> names = preset_names(folder);
+    if (!std::binary_search(names.begin(), names.end(), name))
+        throw file_error("",
+                         "found no preset of this name in " + folder + ", expected one of: " + near_names(name, names));
+    return folder + "/" + name + suffix;
+}
 
 bool preset_read(const char *name_or_path, scene *s, scene_material *out, report *r)
 {

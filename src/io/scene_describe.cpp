@@ -138,13 +138,19 @@ ordered_json describe_camera(const scene_camera &c)
 
 ordered_json describe_light(const scene_light &l)
 {
-    static const char *const kinds[] = { "directional", "point", "spot" };
+    static const char *const kinds[] = { "directional", "point", "spot", "rect", "disk" };
     ordered_json out = { { "name", l.name },
                          { "kind", kinds[l.kind] },
                          { "color", rounded_array(l.color) },
                          { "intensity", rounded(l.intensity) } };
     if (l.kind == SCENE_LIGHT_DIRECTIONAL) {
         out["angular_diameter_rad"] = rounded(l.angular_diameter_rad);
+        return out;
+    }
+    if (l.kind == SCENE_LIGHT_RECT || l.kind == SCENE_LIGHT_DISK) {
+        out["width_m"] = rounded(l.width_m);
+        out["height_m"] = rounded(l.height_m);
+        out["position_m"] = { rounded(l.to_world[12]), rounded(l.to_world[13]), rounded(l.to_world[14]) };
         return out;
     }
     out["radius_m"] = rounded(l.radius_m);
@@ -155,6 +161,20 @@ ordered_json describe_light(const scene_light &l)
         out["outer_cone_rad"] = rounded(l.outer_cone_rad);
     }
     return out;
+}
+
+ordered_json describe_environment(const scene *s)
+{
+    const scene_environment &e = s->environment;
+    if (!e.present)
+        return nullptr;
+    ordered_json faces = ordered_json::array();
+    for (const int face : e.faces)
+        faces.push_back(s->images[face].name);
+    return { { "name", e.name },
+             { "intensity", rounded(e.intensity) },
+             { "rotation", rounded_array(e.rotation) },
+             { "faces", faces } };
 }
 
 ordered_json describe_image(const scene_image &image)
@@ -183,7 +203,7 @@ ordered_json describe_notes(const scene *s)
         notes.push_back("nothing to see: no triangles");
     if (s->camera_count == 0)
         notes.push_back("no camera: rendering frames the whole scene");
-    if (s->light_count == 0)
+    if (s->light_count == 0 && !s->environment.present)
         notes.push_back("no lights: rendering adds a lookdev rig");
     for (int i = 0; i < s->mesh_count; i++) {
         const scene_mesh &mesh = s->meshes[i];
@@ -213,6 +233,7 @@ ordered_json describe(const scene *s)
         out["cameras"].push_back(describe_camera(s->cameras[i]));
     for (int i = 0; i < s->light_count; i++)
         out["lights"].push_back(describe_light(s->lights[i]));
+    out["environment"] = describe_environment(s);
     for (int i = 0; i < s->image_count; i++)
         out["images"].push_back(describe_image(s->images[i]));
     for (int i = 0; i < s->variant_count; i++)
@@ -257,6 +278,8 @@ std::string text_of(const ordered_json &all)
     add_list(out, "mesh", all["meshes"]);
     add_list(out, "camera", all["cameras"]);
     add_list(out, "light", all["lights"]);
+    if (!all["environment"].is_null())
+        add_list(out, "environment", ordered_json::array({ all["environment"] }));
     add_list(out, "image", all["images"]);
     add_list(out, "variant", all["variants"]);
     add_list(out, "note", all["notes"]);

@@ -5,10 +5,36 @@ pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET GLOBAL draco>=1.5)
 
 glint_folder(io_scene
   SOURCES
-    geometry.cpp gltf_accessor.cpp gltf_container.cpp gltf_document.cpp gltf_draco.cpp gltf_glint.cpp gltf_graph.cpp
-    gltf_material.cpp gltf_mesh.cpp gltf_node.cpp gltf_primitive.cpp gltf_resource.cpp gltf_rules.cpp gltf_schema.cpp
-    gltf_schema_core.cpp gltf_schema_extensions.cpp gltf_texture.cpp gltf_tiny.cpp gltf_transform.cpp json.cpp
-    near_names.cpp preset.cpp scene_bounds.c scene_describe.cpp scene_file.cpp tangent_space.c
+    geometry.cpp
+    gltf_accessor.cpp
+    gltf_container.cpp
+    gltf_document.cpp
+    gltf_draco.cpp
+    gltf_glint.cpp
+    gltf_graph.cpp
+    gltf_light.cpp
+    gltf_material.cpp
+    gltf_mesh.cpp
+    gltf_node.cpp
+    gltf_primitive.cpp
+    gltf_resource.cpp
+    gltf_rules.cpp
+    gltf_schema.cpp
+    gltf_schema_core.cpp
+    gltf_schema_extensions.cpp
+    gltf_texture.cpp
+    gltf_tiny.cpp
+    gltf_transform.cpp
+    gltf_validate.cpp
+    gltf_validate_mesh.cpp
+    json.cpp
+    near_names.cpp
+    preset.cpp
+    scene_bounds.c
+    scene_describe.cpp
+    scene_file.cpp
+    tangent_space.c
+    validate.cpp
   SEES glint.h scene io)
 target_link_libraries(io_scene_objects PUBLIC nlohmann_json::nlohmann_json PkgConfig::TINYGLTF PkgConfig::DRACO)
 

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "io/gltf_document.hpp"
+#include "io/gltf_light.hpp"
 #include "io/scene_bounds.h"
 #include "io/scene_memory.hpp"
 
@@ -43,6 +44,7 @@ void read_file(const char *path, const scene_file_options *options, scene *out, 
     read_variants(file, out);
     const std::vector<gltf_mesh_range> meshes = gltf_read_meshes(file, out, chosen_variant(out, options));
     gltf_read_nodes(file, meshes, out);
+    gltf_read_environment(file, out);
     scene_compute_bounds(out);
 }
 

@@ -7,6 +7,7 @@
 
 #define GLINT_LANES 1
 #include "math/hash.h"
+#include "model/area.h"
 #include "model/lobe.h"
 #include "model/stretch.h"
 
@@ -46,17 +47,46 @@ counting_width counting_widest(size_t max_lanes)
     return (counting_width){ 1, counting_kernel_1, counting_tinted_1 };
 }
 
+/* What a point makes of its light: the smooth reflection, and which facets are lit. */
+typedef struct lit {
+    float specular[3], diffuse[3];
+    vec3 h;
+    float cap; /* of the half vectors that are lit, seen from above */
+    float p;
+} lit;
+
+static void light(const model_query *q, lit *l)
+{
+    if (q->area_light) {
+        area_value area;
+        area_eval(q, &area);
+        *l = (lit){ { area.specular[0], area.specular[1], area.specular[2] },
+                    { area.diffuse[0], area.diffuse[1], area.diffuse[2] },
+                    area.h,
+                    area.cap,
+                    area.lit_probability };
+        return;
+    }
+    lobe_value lobe;
+    lobe_eval(q, &lobe);
+    const float solid_angle = lobe_lit_solid_angle(q, &lobe);
+    *l = (lit){ { lobe.specular[0], lobe.specular[1], lobe.specular[2] },
+                { lobe.diffuse[0], lobe.diffuse[1], lobe.diffuse[2] },
+                lobe.h,
+                solid_angle * lobe.h.z,
+                lobe_lit_probability(q, &lobe, solid_angle) };
+}
+
 /* Whether there is anything to count at this point. */
 static int is_discrete(const model_query *q)
 {
-    return q->footprint && q->solid_angle_sr > 0.0F && q->surface->discreteness > 0.0F &&
+    return q->footprint && (q->solid_angle_sr > 0.0F || q->area_light) && q->surface->discreteness > 0.0F &&
            q->surface->facets_per_m2 > 0.0F;
 }
 
 /* Fills entry i. */
-static void gather(const model_query *q, const lobe_value *lobe, gathered *g, size_t i)
+static void gather(const model_query *q, const lit *lobe, gathered *g, size_t i)
 {
-    const float solid_angle = lobe_lit_solid_angle(q, lobe);
     const glint_material_options *o = &q->material->options;
     const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
     g->u[i] = f.u;
@@ -69,8 +99,8 @@ static void gather(const model_query *q, const lobe_value *lobe, gathered *g, si
     g->seed[i] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
     g->hx[i] = lobe->h.x;
     g->hy[i] = lobe->h.y;
-    g->cap[i] = solid_angle * lobe->h.z;
-    g->p[i] = lobe_lit_probability(q, lobe, solid_angle);
+    g->cap[i] = lobe->cap;
+    g->p[i] = lobe->p;
 }
 
 static counting_points points_of(const gathered *g)
@@ -79,7 +109,7 @@ static counting_points points_of(const gathered *g)
                               g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
 }
 
-static void combine(const model_query *q, const lobe_value *lobe, float factor, glint_value *value)
+static void combine(const model_query *q, const lit *lobe, float factor, glint_value *value)
 {
     const float g = q->surface->discreteness;
     for (int c = 0; c < 3; c++) {
@@ -89,8 +119,8 @@ static void combine(const model_query *q, const lobe_value *lobe, float factor, 
 }
 
 /* The discrete queries of a chunk, index[i] the query of entry i, for facets of different colours. */
-static void eval_tinted(const model_query *q, const lobe_value *lobe, const gathered *g, const size_t *index,
-                        size_t count, size_t padded, counting_width width, glint_value *value)
+static void eval_tinted(const model_query *q, const lit *lobe, const gathered *g, const size_t *index, size_t count,
+                        size_t padded, counting_width width, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
     float factor[3][CHUNK], facets[CHUNK];
@@ -98,7 +128,7 @@ static void eval_tinted(const model_query *q, const lobe_value *lobe, const gath
     const counting_points points = points_of(g);
     width.tinted(&points, padded, &baked->palette, factors, facets);
     for (size_t i = 0; i < count; i++) {
-        const lobe_value *l = &lobe[index[i]];
+        const lit *l = &lobe[index[i]];
         glint_value *v = &value[index[i]];
         combine(&q[index[i]], l, 1.0F, v);
         const float share = q[index[i]].surface->discreteness;
@@ -113,10 +143,10 @@ static void eval_tinted(const model_query *q, const lobe_value *lobe, const gath
 static void eval_chunk(const model_query *q, size_t count, counting_width width, glint_value *value)
 {
     gathered g;
-    lobe_value lobe[CHUNK];
+    lit lobe[CHUNK];
     size_t index[CHUNK], discrete = 0;
     for (size_t i = 0; i < count; i++) {
-        lobe_eval(&q[i], &lobe[i]);
+        light(&q[i], &lobe[i]);
         value[i] = (glint_value){ 0 };
         if (is_discrete(&q[i])) {
             gather(&q[i], &lobe[i], &g, discrete);

@@ -5,6 +5,7 @@
  * MIP hierarchy (Eqs. 12 to 16). The paper has no sampling; since D_P is even, the visible normals of V-cavities (Heitz
  * and d'Eon 2014) sample exactly what is evaluated.
  */
+#include "model/area_points.h"
 #include "model/dictionary_cell.h"
 #include "model/dictionary_patch.h"
 #include "model/lobe.h"
@@ -15,6 +16,7 @@
 #define GLINT_LANES 1
 #include "footprint/grid.h"
 #include "math/hash.h"
+#include "math/uniform.h"
 
 /* Below this h is so close to the horizon that slopes are longer than any facet's. */
 #define LEAST_COSINE 1e-6F
@@ -105,6 +107,10 @@ static float masking(const model_query *q, const lobe_value *lobe)
 
 static void dictionary_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        area_points_eval(q, value);
+        return;
+    }
     lobe_value lobe;
     lobe_eval(q, &lobe);
     const float coverage = q->material->options.coverage, g2 = masking(q, &lobe);

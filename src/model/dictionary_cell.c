@@ -19,6 +19,7 @@
 #define GLINT_LANES 1
 #include "math/binomial.h"
 #include "math/hash.h"
+#include "math/uniform.h"
 
 #define LOG2_OF_E 1.44269504F
 #define LN2 0.693147181F

@@ -57,11 +57,4 @@ slope dictionary_cell_sample(const dictionary_cell_slopes *s, const ndf *target,
 /* A slope of the target itself. */
 slope dictionary_target_sample(const ndf *target, float u1, float u2);
 
-/* Takes the share `from` to `to` of the uniform's range: what is left of it is uniform in [0, 1) again. */
-static inline float uniform_within(float u, float from, float to)
-{
-    const float rest = (u - from) / (to - from);
-    return rest < 0.0F ? 0.0F : rest < 0.99999994F ? rest : 0.99999994F;
-}
-
 #endif

@@ -7,6 +7,7 @@
 #include "model/example.h"
 
 #include "light/cap.h"
+#include "model/area_points.h"
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
@@ -114,6 +115,10 @@ static void combine(const model_query *q, lobe_value *lobe, float masking, float
 
 static void example_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        area_points_eval(q, value);
+        return;
+    }
     const example *e = q->material->baked;
     const stretch r = stretch_of(q);
     lobe_value lobe;

@@ -13,7 +13,10 @@
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
+#include "math/float_bits.h"
 #include "math/hash.h"
+#include "model/area.h"
+#include "model/explicit_area.h"
 #include "model/facet.h"
 #include "model/lobe.h"
 #include "model/tint.h"
@@ -23,10 +26,13 @@ typedef struct facet_sum {
     const model_query *q;
     ndf distribution;
     float total_area; /* D_H */
+    vec3 h;           /* half vector */
     float chord2;     /* square of the chord from the middle of the light's cap to its rim */
     uint32_t seed;
-    const tint_palette *palette; /* NULL: all facets have the base colour, and density[0] is for all channels */
+    const tint_palette *palette; /* NULL: all facets have the base colour */
     double density[3];           /* sum of what the facets add to D, averaged over the light */
+    const area_light *area;      /* of real size: then rgb is summed instead, the lobe's integral over it */
+    double rgb[3];
 } facet_sum;
 
 /* Mass of a lobe around the origin within a disk of radius r at distance d, both squared and in units of the lobe's
@@ -80,24 +86,33 @@ static float beckmann_disk_mass(float d2, float r2)
     return fminf(sum * step, 1.0F);
 }
 
-/* The part of one facet's reflection that meets the light's cap. The lobe is taken as round around the mirrored view.
- */
-static float lit_part(const facet_sum *s, vec3 h)
+/* The part of one facet's reflection that meets the light's cap. A mirror shows the light or not. The lobe of a rough
+ * facet is one of half vectors, round around its normal; among them the cap is a disc of 1 / (4 h.wo) of its solid
+ * angle, taken as round. */
+static float lit_part(const facet_sum *s, vec3 m)
 {
-    const vec3 wo = s->q->wo, wi = s->q->wi;
-    const float cosine = vec3_dot(wo, h);
+    const vec3 wo = s->q->wo;
+    const float cosine = vec3_dot(wo, m);
     if (!(cosine > 0.0F))
         return 0.0F;
-    const vec3 mirrored = vec3_add(vec3_scale(h, 2.0F * cosine), vec3_scale(wo, -1.0F));
-    const vec3 off = vec3_add(mirrored, vec3_scale(wi, -1.0F));
-    const float off2 = vec3_dot(off, off);
     const float alpha = s->q->material->options.facet_alpha;
-    if (!(alpha > 0.0F))
-        return off2 <= s->chord2 ? 1.0F : 0.0F;
-    /* A lobe of solid angle alpha^2 in h has 4 h.wo times that in wi. */
-    const float scale = 1.0F / (alpha * alpha * 4.0F * cosine);
-    const float d2 = fminf(off2 * scale, 1e12F), r2 = fminf(s->chord2 * scale, 1e12F);
+    if (!(alpha > 0.0F)) {
+        const vec3 mirrored = vec3_add(vec3_scale(m, 2.0F * cosine), vec3_scale(wo, -1.0F));
+        const vec3 off = vec3_add(mirrored, vec3_scale(s->q->wi, -1.0F));
+        return vec3_dot(off, off) <= s->chord2 ? 1.0F : 0.0F;
+    }
+    const vec3 off = vec3_add(m, vec3_scale(s->h, -1.0F));
+    const float scale = 1.0F / (alpha * alpha);
+    const float d2 = fminf(vec3_dot(off, off) * scale, 1e12F);
+    const float r2 = fminf(s->chord2 * scale / (4.0F * cosine), 1e12F);
     return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
+}
+
+static void tint_facet(const facet_sum *s, int64_t x, int64_t y, float tint[3])
+{
+    tint[0] = tint[1] = tint[2] = 1.0F;
+    if (s->palette)
+        tint_of_uniform(s->palette, (float)facet_tint_hash(s->q->material->options.facet_hash, x, y, s->seed), tint);
 }
 
 static void add_facet(int64_t x, int64_t y, double share, void *user)
@@ -105,20 +120,23 @@ static void add_facet(int64_t x, int64_t y, double share, void *user)
     facet_sum *s = user;
     const glint_material_options *o = &s->q->material->options;
     const vec3 h = facet_normal(&s->distribution, o->weighting, facet_hash(o->facet_hash, x, y, s->seed));
+    /* What a facet of unit projected area, or of unit area, adds to D. */
+    const float weight = o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? s->total_area : 1.0F / h.z;
+    if (s->area) {
+        float rgb[3], tint[3];
+        explicit_area_facet(s->q, s->area, h, rgb);
+        tint_facet(s, x, y, tint);
+        for (int c = 0; c < 3; c++)
+            s->rgb[c] += share * (double)(weight * rgb[c] * tint[c]);
+        return;
+    }
     const float lit = lit_part(s, h);
     if (!(lit > 0.0F))
         return;
-    /* What a facet of unit projected area, or of unit area, adds to D. */
-    const float weight = o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? s->total_area : 1.0F / h.z;
-    const double added = share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit);
-    if (!s->palette) {
-        s->density[0] += added;
-        return;
-    }
     float tint[3];
-    tint_of_uniform(s->palette, (float)facet_tint_hash(o->facet_hash, x, y, s->seed), tint);
+    tint_facet(s, x, y, tint);
     for (int c = 0; c < 3; c++)
-        s->density[c] += added * (double)tint[c];
+        s->density[c] += share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit * tint[c]);
 }
 
 /* The pixel in cells, which are round in the space where elongated facets are. */
@@ -133,8 +151,46 @@ static coverage_pixel pixel_of(const model_query *q)
     };
 }
 
+/* The smooth value where there is nothing discrete to see, or too much. */
+static void explicit_eval_area(const model_query *q, glint_value *value)
+{
+    area_value smooth;
+    area_light light;
+    area_eval(q, &smooth);
+    *value = (glint_value){ 0 };
+    for (int c = 0; c < 3; c++)
+        value->rgb[c] = value->smooth[c] = smooth.specular[c] + smooth.diffuse[c];
+    if (!q->footprint || !(q->surface->facets_per_m2 > 0.0F) || !(q->surface->discreteness > 0.0F) ||
+        !area_see(q, &light))
+        return;
+    const coverage_pixel pixel = pixel_of(q);
+    const double area = coverage_area(&pixel);
+    value->facet_count = (float)area;
+    value->lit_probability = smooth.lit_probability;
+    value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
+    if (!(area > 0.0) || value->over_limit)
+        return;
+    const int is_tinted = tint_is_asked(&q->material->options);
+    const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
+    facet_sum s = { .q = q,
+                    .distribution = lobe_ndf(q),
+                    .seed = q->material->options.seed + q->footprint->seed,
+                    .palette = is_tinted ? &palette : NULL,
+                    .area = &light };
+    s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
+    coverage_each(&pixel, add_facet, &s);
+    const float g = q->surface->discreteness;
+    const float discrete = q->material->options.coverage * (1.0F - clamp_to(q->area_light->hidden, 0.0F, 1.0F));
+    for (int c = 0; c < 3; c++)
+        value->rgb[c] = (1.0F - g) * smooth.specular[c] + g * discrete * (float)s.rgb[c] + smooth.diffuse[c];
+}
+
 static void explicit_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        explicit_eval_area(q, value);
+        return;
+    }
     lobe_value lobe;
     lobe_eval(q, &lobe);
     *value = (glint_value){ 0 };
@@ -153,17 +209,16 @@ static void explicit_eval(const model_query *q, glint_value *value)
             /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
              * pi. */
             facet_sum s = { .q = q,
-                            .palette = is_tinted ? &palette : NULL,
                             .distribution = lobe_ndf(q),
+                            .h = lobe.h,
                             .chord2 = q->solid_angle_sr / MATH_PI,
-                            .seed = q->material->options.seed + q->footprint->seed };
+                            .seed = q->material->options.seed + q->footprint->seed,
+                            .palette = is_tinted ? &palette : NULL };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
             coverage_each(&pixel, add_facet, &s);
             const float g = q->surface->discreteness;
-            for (int c = 0; c < 3; c++) {
-                const float discrete = (float)(s.density[is_tinted ? c : 0] / (double)q->solid_angle_sr);
-                density[c] = (1.0F - g) * density[c] + g * discrete;
-            }
+            for (int c = 0; c < 3; c++)
+                density[c] = (1.0F - g) * density[c] + g * (float)(s.density[c] / (double)q->solid_angle_sr);
         }
     }
     for (int c = 0; c < 3; c++) {

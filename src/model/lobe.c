@@ -14,7 +14,7 @@ ndf lobe_ndf(const model_query *q)
                   q->surface->alpha_x, q->surface->alpha_y };
 }
 
-static float facet_reflectance(const model_query *q, int channel, float cosine)
+float lobe_facet_reflectance(const model_query *q, int channel, float cosine)
 {
     const glint_material_options *o = &q->material->options;
     switch (o->fresnel) {
@@ -36,18 +36,19 @@ static float clamp01(float x)
 /* What is left for the base of light that enters at one angle and leaves at the other: (1 - F_o)(1 - F_i) / (1 - F_0).
  * glTF's own 1 - F(h.wo) is the same head-on but gives more light than came in at grazing angles; this is reciprocal
  * and never above one. */
-static float base_albedo(const model_query *q, int channel, float cos_i)
+float lobe_base_albedo(const model_query *q, int channel, float cos_i)
 {
     if (!(q->surface->diffuse[channel] > 0.0F))
         return 0.0F;
     const float coverage = q->material->options.coverage;
-    const float head_on = 1.0F - coverage * facet_reflectance(q, channel, 1.0F);
+    const float head_on = 1.0F - coverage * lobe_facet_reflectance(q, channel, 1.0F);
     if (!(head_on > 0.0F))
         return 0.0F;
-    const float out = 1.0F - coverage * facet_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
-    const float in = 1.0F - coverage * facet_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
-    const float kept = out * (in / head_on);
-    return q->surface->diffuse[channel] * (kept < 1.0F ? kept : 1.0F);
+    const float out = 1.0F - coverage * lobe_facet_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+    const float in = 1.0F - coverage * lobe_facet_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
+    /* Where facets reflect most head-on, as metals nearly do, no more is left than came in at either angle. */
+    const float least = in < out ? in : out, both = out * (in / head_on);
+    return q->surface->diffuse[channel] * (both < least ? both : least);
 }
 
 void lobe_halve(const model_query *q, lobe_value *value)
@@ -63,10 +64,10 @@ void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *val
     const float masking = 0.25F * masking_over_cosine;
     const float coverage = q->material->options.coverage;
     for (int c = 0; c < 3; c++) {
-        value->fresnel[c] = facet_reflectance(q, c, value->h_dot_wi);
+        value->fresnel[c] = lobe_facet_reflectance(q, c, value->h_dot_wi);
         value->reflectance[c] = coverage * value->fresnel[c] * masking;
         value->specular[c] = value->reflectance[c] * value->density;
-        value->diffuse[c] = base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
+        value->diffuse[c] = lobe_base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
     }
 }
 
@@ -100,8 +101,8 @@ float lobe_specular_chance(const model_query *q)
 {
     float specular = 0.0F, diffuse = 0.0F;
     for (int c = 0; c < 3; c++) {
-        specular += q->material->options.coverage * facet_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
-        diffuse += base_albedo(q, c, 1.0F);
+        specular += q->material->options.coverage * lobe_facet_reflectance(q, c, q->wo.z < 1.0F ? q->wo.z : 1.0F);
+        diffuse += lobe_base_albedo(q, c, 1.0F);
     }
     if (!(diffuse > 0.0F))
         return 1.0F;

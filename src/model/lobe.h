@@ -19,6 +19,12 @@ typedef struct lobe_value {
 /* The distribution of the facets at this point. */
 ndf lobe_ndf(const model_query *q);
 
+/* F of one facet, for the cosine in [0, 1] between a direction and its normal. */
+float lobe_facet_reflectance(const model_query *q, int channel, float cosine);
+
+/* Albedo of the base below the facets for light at this angle. */
+float lobe_base_albedo(const model_query *q, int channel, float cos_i);
+
 /* f = coverage F D G2 / (4 cos_o cos_i) + diffuse / pi of what the facets let through, each times |cos theta_i|. */
 void lobe_eval(const model_query *q, lobe_value *value);
 

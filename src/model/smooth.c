@@ -1,11 +1,19 @@
 /* The smooth model: infinitely many facets, a Cook-Torrance lobe (Cook and Torrance 1982; Walter et al. 2007). */
+#include "model/area.h"
 #include "model/lobe.h"
 
 static void smooth_eval(const model_query *q, glint_value *value)
 {
+    *value = (glint_value){ 0 };
+    if (q->area_light) {
+        area_value area;
+        area_eval(q, &area);
+        for (int c = 0; c < 3; c++)
+            value->rgb[c] = value->smooth[c] = area.specular[c] + area.diffuse[c];
+        return;
+    }
     lobe_value lobe;
     lobe_eval(q, &lobe);
-    *value = (glint_value){ 0 };
     for (int c = 0; c < 3; c++)
         value->rgb[c] = value->smooth[c] = lobe.specular[c] + lobe.diffuse[c];
 }

@@ -7,6 +7,7 @@
 #include "preview/hash.h"
 #include "preview/rig.h"
 #include "preview/sampler.h"
+#include "preview/surroundings.h"
 
 /* Blended layers one behind the other that a camera ray looks through, and the light that is too weak to follow. Taste.
  */
@@ -15,8 +16,8 @@
 /* The largest single-precision number below 1: uniforms must not reach 1. */
 #define BELOW_ONE 0x1.fffffep-1F
 
-/* What the sampler's dimensions are for. Those of the lights follow the others. */
-enum { DIM_PIXEL, DIM_PLACE, DIM_LOBE, DIM_DIRECTION, DIM_BLEND, DIM_LIGHTS };
+/* What the sampler's dimensions are for. Those of the lights follow the others, up to that of the surroundings. */
+enum { DIM_PIXEL, DIM_PLACE, DIM_LOBE, DIM_DIRECTION, DIM_BLEND, DIM_LIGHTS, DIM_SURROUNDINGS = (1 << 20) - 1 };
 
 /* Every depth of a path has dimensions of its own, with room for 2^20 lights. */
 static uint32_t dimension(int depth, uint32_t purpose)
@@ -62,27 +63,24 @@ static void add_light(radiance *sum, const float throughput[3], const float adde
 
 /* Draws the next ray of a path, with the differential of a reflection about the half vector: the facet that sends the
  * ray there turns with the surface. False: the path ends. */
-static bool leave(const world *w, vertex *v, const sampler *random, int depth, float throughput[3])
+static bool leave(const world *w, vertex *v, const sampler *random, int depth, shade_direction *next)
 {
     double lobe[2], u[2];
-    shade_direction next;
     sampler_pair(random, dimension(depth, DIM_LOBE), lobe);
     sampler_pair(random, dimension(depth, DIM_DIRECTION), u);
     const float three[3] = { to_uniform(lobe[0]), to_uniform(u[0]), to_uniform(u[1]) };
-    if (!shade_sample(&v->point, to_uniform(lobe[1]), three, &next) || !(next.pdf > 0.0F))
+    if (!shade_sample(&v->point, to_uniform(lobe[1]), three, next) || !(next->pdf > 0.0F))
         return false;
-    if (v3_dot(next.wi, v->hit.geometric_normal) <= 0.0) /* into the surface, through a bent normal */
+    if (v3_dot(next->wi, v->hit.geometric_normal) <= 0.0) /* into the surface, through a bent normal */
         return false;
 
-    const vec3 half = v3_normalize(v3_sub(next.wi, v->ray.direction));
+    const vec3 half = v3_normalize(v3_sub(next->wi, v->ray.direction));
     v->step = differential_reflect(&v->step, v->ray.direction, half, &v->hit_step.position, &v->hit_step.normal);
-    differential_widen(&v->step, next.wi, fmin(1.0 / ((double)next.pdf * w->spp), 2.0 * PREVIEW_PI));
+    differential_widen(&v->step, next->wi, fmin(1.0 / ((double)next->pdf * w->spp), 2.0 * PREVIEW_PI));
     v->ray = (trace_ray){ .origin = hit_leave(&v->hit, v->hit.position),
-                          .direction = next.wi,
+                          .direction = next->wi,
                           .far = (double)INFINITY,
                           .random = sampler_bits(random, dimension(depth, DIM_BLEND)) };
-    for (int c = 0; c < 3; ++c)
-        throughput[c] *= next.weight[c];
     return true;
 }
 
@@ -93,20 +91,23 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
     float throughput[3] = { 1.0F, 1.0F, 1.0F };
     vertex v = *from;
     for (int depth = 1; depth <= w->bounces || w->has_sky; ++depth) {
-        if (!leave(w, &v, random, depth - 1, throughput))
+        shade_direction next;
+        if (!leave(w, &v, random, depth - 1, &next))
             return;
         ++counts->bounce_rays;
         if (!arrive(w, &v, TRACE_BLEND_RANDOM, random, depth)) {
-            float sky[3];
-            sky_radiance(&w->sky, v.ray.direction, sky);
-            add_light(sum, throughput, sky);
+            add_escaped_light(w, &v.point, &next, throughput, sum, counts);
             return;
         }
         if (depth > w->bounces)
             return;
+        for (int c = 0; c < 3; ++c)
+            throughput[c] *= next.weight[c];
         shade_widen(&v.point, differential_half_vector_variance(&v.step, &v.hit_step.normal));
         add_light(sum, throughput, v.point.emission);
         add_direct_light(w, &v.hit, &v.point, random, dimension(depth, DIM_LIGHTS), throughput, sum, NULL, counts);
+        add_surroundings(w, &v.hit, &v.point, random, dimension(depth, DIM_SURROUNDINGS), throughput, sum, NULL,
+                         counts);
     }
 }
 
@@ -132,6 +133,7 @@ static radiance light_of_layer(const world *w, const vertex *v, const sampler *r
     radiance sum = { 0 };
     add_light(&sum, all, v->point.emission);
     add_direct_light(w, &v->hit, &v->point, random, dimension(0, DIM_LIGHTS), all, &sum, facets, counts);
+    add_surroundings(w, &v->hit, &v->point, random, dimension(0, DIM_SURROUNDINGS), all, &sum, facets, counts);
     add_indirect_light(w, v, random, &sum, counts);
     return sum;
 }
@@ -150,7 +152,10 @@ static void add_seen_sky(const world *w, vec3 direction, float share, pixel_samp
     radiance sky = { 0 };
     if (!w->sky_seen)
         return;
-    sky_radiance(&w->sky, direction, sky.discrete);
+    if (w->environment != NULL)
+        environment_seen(w->environment, direction, sky.discrete);
+    else
+        sky_radiance(&w->sky, direction, sky.discrete);
     memcpy(sky.smooth, sky.discrete, sizeof sky.smooth);
     add_layer(out, &sky, share);
 }

@@ -3,6 +3,7 @@
 #define PREVIEW_INTEGRATOR_H
 
 #include "preview/camera.h"
+#include "preview/environment.h"
 #include "preview/light.h"
 #include "preview/preview.h"
 #include "preview/shade.h"
@@ -16,7 +17,8 @@ typedef struct world {
     int light_count;
     shader shader;
     preview_sky sky;
-    bool has_sky, sky_seen; /* seen: by the camera */
+    const environment *environment; /* in place of the sky; NULL: none */
+    bool has_sky, sky_seen;         /* seen: by the camera */
     int bounces, spp;
     uint32_t seed;
 } world;

@@ -1,4 +1,4 @@
-/* Turns each material of the scene into one or two handles of libglint. */
+/* Turns each material of the scene into a handle of libglint, layered where there is a clear coat. */
 #include "preview/materials.h"
 
 #include <stdlib.h>
@@ -11,13 +11,16 @@ static const char *name_of(const scene_material *m)
     return m->name != NULL ? m->name : "";
 }
 
-static void warn_of_unrendered(const scene *s, int index, glint_model model, report *r)
+static void warn_of_unrendered(const scene *s, int index, const scene_glint *g, glint_model model, report *r)
 {
     const scene_material *const m = &s->materials[index];
-    const scene_glint *const g = &m->glint;
     const char *const path = s->path != NULL ? s->path : "scene";
-    if (!g->present || !(g->factor > 0.0F))
+    if (g == NULL || !(g->factor > 0.0F))
         return;
+    if ((g->color_variation > 0.0F || g->color_count > 0) && !(glint_model_features(model) & GLINT_FEATURE_COLOR))
+        report_warning(r, "%s: materials/%d (\"%s\"): %s is not rendered by the %s model; every facet has one colour",
+                       path, index, name_of(m), g->color_count > 0 ? "glintColors" : "glintColorVariation",
+                       glint_model_name(model));
     if (g->density_variation > 0.0F && model != GLINT_MODEL_DICTIONARY)
         report_warning(
             r,
@@ -29,30 +32,37 @@ static void warn_of_unrendered(const scene *s, int index, glint_model model, rep
 }
 
 /* Glints that are laid out by texture coordinates need some. */
-static void warn_of_missing_texcoords(const scene *s, report *r)
+static void warn_of_missing_texcoords(const scene *s, scene_glint_layer layer, report *r)
 {
     for (int i = 0; i < s->mesh_count; ++i) {
         const scene_mesh *const mesh = &s->meshes[i];
-        const scene_glint *const g = &s->materials[mesh->material].glint;
-        if (g->present && g->factor > 0.0F && g->space == SCENE_SPACE_UV && mesh->texcoord[g->texcoord] == NULL)
+        const scene_material *const m = &s->materials[mesh->material];
+        const scene_glint *const g = scene_layer_glint(m, layer);
+        if (g != NULL && g->factor > 0.0F && g->space == SCENE_SPACE_UV && mesh->texcoord[g->texcoord] == NULL)
             report_warning(r,
                            "%s: %s: no TEXCOORD_%d, which the glints of material \"%s\" use; they are laid out in the "
                            "object's space instead",
                            s->path != NULL ? s->path : "scene", mesh->name != NULL ? mesh->name : "a mesh", g->texcoord,
-                           name_of(&s->materials[mesh->material]));
+                           name_of(m));
     }
 }
 
-static bool make_layer(const scene *s, int index, const char *layer, const glint_material_options *options,
-                       glint_material **out, bool *counts, report *r)
+static bool shows_facets(const glint_material *layer)
+{
+    return (glint_material_features(layer) & GLINT_FEATURE_DISCRETE) != 0;
+}
+
+static bool make(const scene *s, int index, const glint_material_options *options, material_layers *out, report *r)
 {
     char message[256] = "";
-    const glint_result result = glint_material_create(options, out, message, sizeof message);
+    const glint_result result = glint_material_create(options, &out->whole, message, sizeof message);
     if (result != GLINT_OK)
-        return report_error(r, "%s: materials/%d (\"%s\"), %s: %s", s->path != NULL ? s->path : "scene", index,
-                            name_of(&s->materials[index]), layer,
-                            message[0] != '\0' ? message : glint_result_text(result));
-    *counts = (glint_model_features(options->model) & GLINT_FEATURE_DISCRETE) != 0;
+        return report_error(r, "%s: materials/%d (\"%s\"): %s", s->path != NULL ? s->path : "scene", index,
+                            name_of(&s->materials[index]), message[0] != '\0' ? message : glint_result_text(result));
+    out->coat = glint_material_layer(out->whole, GLINT_LAYER_COAT);
+    out->base = out->coat != NULL ? glint_material_layer(out->whole, GLINT_LAYER_BASE) : out->whole;
+    out->base_counts = shows_facets(out->base);
+    out->coat_counts = out->coat != NULL && shows_facets(out->coat);
     return true;
 }
 
@@ -60,12 +70,14 @@ static bool make_layers(const scene *s, int index, glint_model model, material_l
 {
     const scene_material *const m = &s->materials[index];
     const glint_material_options base = scene_base_options(m, model);
-    if (!make_layer(s, index, "base", &base, &out->base, &out->base_counts, r))
-        return false;
     if (!(m->clearcoat > 0.0F))
-        return true;
+        return make(s, index, &base, out, r);
     const glint_material_options coat = scene_coat_options(m, model);
-    return make_layer(s, index, "clear coat", &coat, &out->coat, &out->coat_counts, r);
+    glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
+    whole.model = GLINT_MODEL_LAYERED;
+    whole.layers.base = &base;
+    whole.layers.coat = &coat;
+    return make(s, index, &whole, out, r);
 }
 
 bool materials_make(const scene *s, int model, materials *out, report *r)
@@ -78,22 +90,22 @@ bool materials_make(const scene *s, int model, materials *out, report *r)
 
     const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
-        warn_of_unrendered(s, i, wanted, r);
+        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_BASE), wanted, r);
+        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_CLEARCOAT), wanted, r);
         if (!make_layers(s, i, wanted, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }
     }
-    warn_of_missing_texcoords(s, r);
+    warn_of_missing_texcoords(s, SCENE_LAYER_BASE, r);
+    warn_of_missing_texcoords(s, SCENE_LAYER_CLEARCOAT, r);
     return true;
 }
 
 void materials_free(materials *m)
 {
-    for (int i = 0; m->layers != NULL && i < m->scene->material_count; ++i) {
-        glint_material_destroy(m->layers[i].base);
-        glint_material_destroy(m->layers[i].coat);
-    }
+    for (int i = 0; m->layers != NULL && i < m->scene->material_count; ++i)
+        glint_material_destroy(m->layers[i].whole);
     free(m->layers);
     *m = (materials){ 0 };
 }

@@ -6,8 +6,9 @@
 #include "scene/scene.h"
 
 typedef struct material_layers {
-    glint_material *base;
-    glint_material *coat;          /* NULL: the material has no clear coat */
+    glint_material *whole;         /* layered where the material has a clear coat */
+    const glint_material *base;    /* of whole, or the same */
+    const glint_material *coat;    /* of whole; NULL: there is no clear coat */
     bool base_counts, coat_counts; /* single facets show: the layer wants a footprint */
 } material_layers;
 

@@ -22,6 +22,8 @@ typedef struct stage {
     textures *textures;
     camera camera;
     light *lights;
+    environment_map own_map; /* of the scene's image-based light */
+    environment environment;
     world world;
 } stage;
 
@@ -41,7 +43,7 @@ static bool check_range(const char *name, int value, int low, int high, report *
 
 static bool check_options(const preview_options *o, report *r)
 {
-    const int last_model = (int)glint_model_count() - 1;
+    const int last_model = GLINT_MODEL_LAYERED - 1; /* which is made of the others */
     if (o->size != sizeof *o)
         return report_error(r, "preview: the options' size is %zu; expected %zu: start from PREVIEW_OPTIONS_INIT",
                             o->size, sizeof *o);
@@ -66,10 +68,28 @@ static float opacity_at(const void *user, const trace_hit *at)
     return shade_opacity(&st->world.shader, &st->geometry, at);
 }
 
-/* A scene that brings no light, and gets no sky, stands in the studio. */
+static bool set_environment(stage *st, const preview_options *o, report *r)
+{
+    const scene_environment *const own = &st->scene->environment;
+    preview_environment from = { .map = NULL };
+    if (o->environment != NULL) {
+        from = *o->environment;
+    } else if (own->present && o->sky == NULL) {
+        if (!environment_map_from_cube(st->scene, &st->own_map, r))
+            return false;
+        from = (preview_environment){ .map = &st->own_map, .scale = own->intensity };
+        memcpy(from.rotation, own->rotation, sizeof from.rotation);
+    } else {
+        return true;
+    }
+    st->world.environment = &st->environment;
+    return environment_make(&from, &st->environment, r);
+}
+
+/* A scene that brings no light, and gets neither sky nor environment, stands in the studio. */
 static bool wants_rig(const stage *st, const preview_options *o)
 {
-    return st->scene->light_count == 0 && o->sky == NULL;
+    return st->scene->light_count == 0 && o->sky == NULL && st->world.environment == NULL;
 }
 
 static bool set_lights(stage *st, const preview_options *o, const scene_camera *view, report *r)
@@ -80,20 +100,25 @@ static bool set_lights(stage *st, const preview_options *o, const scene_camera *
     const scene_light *const from = studio ? rig : st->scene->lights;
     if (studio)
         rig_lights(view, rig);
-    st->lights = calloc(count > 0 ? (size_t)count : 1U, sizeof *st->lights);
+    st->lights = calloc((size_t)count + ENVIRONMENT_MOST_SUNS, sizeof *st->lights);
     if (st->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
-    for (int i = 0; i < count; ++i)
-        st->lights[i] = light_make(&from[i]);
     st->world.lights = st->lights;
-    st->world.light_count = count;
+    for (int i = 0; i < count; ++i) {
+        if (from[i].kind == SCENE_LIGHT_RECT || from[i].kind == SCENE_LIGHT_DISK)
+            report_warning(r, "light \"%s\": area lights are not rendered", from[i].name);
+        else
+            st->lights[st->world.light_count++] = light_make(&from[i]);
+    }
+    for (int i = 0; i < st->environment.sun_count; ++i)
+        st->lights[st->world.light_count++] = light_make(&st->environment.suns[i]);
     return true;
 }
 
 static void set_sky(stage *st, const preview_options *o)
 {
     world *const w = &st->world;
-    w->has_sky = o->sky != NULL || wants_rig(st, o);
+    w->has_sky = o->sky != NULL || wants_rig(st, o) || w->environment != NULL;
     w->sky_seen = w->has_sky && !o->transparent;
     if (w->has_sky)
         w->sky = o->sky != NULL ? *o->sky : rig_sky();
@@ -118,6 +143,8 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
                          .bounces = o->bounces,
                          .spp = o->spp,
                          .seed = o->seed };
+    if (!set_environment(st, o, r))
+        return false;
     set_sky(st, o);
     if (!camera_make(&view, o->width, o->height, &st->camera, r) || !set_lights(st, o, &view, r) ||
         !materials_make(s, o->model, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
@@ -136,6 +163,8 @@ static void take_down(stage *st)
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
     textures_close(st->textures);
+    environment_free(&st->environment);
+    environment_map_free(&st->own_map);
     free(st->lights);
 }
 

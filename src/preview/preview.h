@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "io/environment_map.h"
 #include "io/image.h"
 #include "scene/report.h"
 #include "scene/scene.h"
@@ -14,6 +15,13 @@ typedef enum preview_model { PREVIEW_MODEL_AUTO = -1 } preview_model; /* else a 
 typedef struct preview_sky {
     float zenith[3], horizon[3], ground[3];
 } preview_sky;
+
+/* Light from a map, which the caller keeps. */
+typedef struct preview_environment {
+    const environment_map *map;
+    float rotation[4]; /* a quaternion x y z w that turns the map; unit within 1 percent */
+    float scale;       /* radiance of a texel of 1 */
+} preview_environment;
 
 typedef struct preview_options {
     size_t size;                                 /* set by PREVIEW_OPTIONS_INIT */
@@ -32,11 +40,13 @@ typedef struct preview_options {
     const atomic_bool *cancel; /* may be NULL; when it turns true, rendering ends and returns false without an error */
     const preview_sky *sky;    /* NULL: that of the lookdev rig where the scene has no lights, else black */
     bool transparent;          /* camera rays do not see the sky: alpha 0 there */
+    const preview_environment *environment; /* in place of any sky; NULL: that of the scene, if it has one */
 } preview_options;
 
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
-        sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, 0, false, 0, 0, 0, 0, false   \
+        sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, 0, false, 0, 0, 0, 0, false,  \
+            0                                                                                                          \
     }
 
 typedef struct preview_statistics {
@@ -48,8 +58,8 @@ typedef struct preview_statistics {
  *
  * Pixels are scene-linear. The bits depend on the scene and the options, not on the number of threads or the tile.
  * Another machine gives the same bits but for the last ones of libm's sin, cos and tan, and for a ray in a million that
- * meets an edge between two triangles. A scene without a camera gets a framed one; without lights, and where the
- * options bring no sky, a lookdev rig and its sky.
+ * meets an edge between two triangles. A scene without a camera gets a framed one; without lights and environment, and
+ * where the options bring neither sky nor environment, a lookdev rig and its sky.
  *
  * Channels: R G B A, with RGB multiplied by A. With aov also, all as means over the samples of the pixel:
  *   smooth.R/G/B    the same picture, sample by sample, without discreteness

@@ -15,6 +15,28 @@ static vec3 to_world(const shade_layer *layer, const float local[3])
     return v3_normalize(v3_mad(in_plane, layer->z, (double)local[2]));
 }
 
+void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3])
+{
+    const shade_layer *const layer = &p->layers[1];
+    const glint_coat coat = { .surface = layer->surface,
+                              .weight = layer->weight,
+                              .normal = { 0.0F, 0.0F, 1.0F },
+                              .tangent = { 1.0F, 0.0F, 0.0F } };
+    float local[3];
+    if (wi != NULL)
+        to_local(layer, *wi, local);
+    glint_transmittance(p->whole, &coat, layer->wo, wi != NULL ? local : NULL, rgb);
+}
+
+/* How much of a layer's light from wi is seen. */
+static void weigh(const shade_point *p, int i, vec3 wi, float weight[3])
+{
+    if (i == 0 && p->layer_count == 2)
+        shade_below_coat(p, &wi, weight);
+    else
+        weight[0] = weight[1] = weight[2] = p->layers[i].weight;
+}
+
 /* A slope distribution of roughness alpha has the variance alpha^2 / 2 per axis; variances add. */
 static float widened(float alpha, double slope_variance)
 {
@@ -46,26 +68,35 @@ bool shade_faces(const shade_point *p, vec3 wi)
     return false;
 }
 
+/* The facets of both layers together, as glint_value has them. */
+static void add_facets(const glint_value *layer, glint_value *sum)
+{
+    const float both = sum->facet_count + layer->facet_count;
+    const float lit = sum->facet_count * sum->lit_probability + layer->facet_count * layer->lit_probability;
+    const bool is_first = !(sum->facet_count > 0.0F);
+    sum->lit_probability = is_first || !(both > 0.0F) ? layer->lit_probability : fminf(lit / both, 1.0F);
+    sum->facet_count = both;
+    sum->over_limit = sum->over_limit || layer->over_limit;
+}
+
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
 {
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
-        float local[3];
+        float local[3], weight[3];
         glint_value one;
         to_local(layer, wi, local);
-        glint_eval_value(layer->material, &layer->surface, layer->counts ? &p->footprint : NULL, layer->wo, local,
+        glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
                          &light, &one);
+        weigh(p, i, wi, weight);
         for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += layer->weight * one.rgb[c];
-            value->smooth[c] += layer->weight * one.smooth[c];
+            value->rgb[c] += weight[c] * one.rgb[c];
+            value->smooth[c] += weight[c] * one.smooth[c];
         }
-        if (layer->counts) {
-            value->facet_count = one.facet_count;
-            value->lit_probability = one.lit_probability;
-            value->over_limit = one.over_limit;
-        }
+        if (layer->counts)
+            add_facets(&one, value);
     }
 }
 
@@ -81,32 +112,111 @@ static float importance(const shade_layer *layer)
     return layer->weight * sum;
 }
 
-bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
+/* The probability that shade_sample chooses a layer. */
+static float share_of(const shade_point *p, int layer)
 {
-    float share = 1.0F;
-    const shade_layer *layer = &p->layers[0];
-    if (p->layer_count == 0)
-        return false;
-    if (p->layer_count == 2) {
-        const float base = importance(&p->layers[0]);
-        const float coat = importance(&p->layers[1]);
-        const float share_of_coat = base + coat > 0.0F ? coat / (base + coat) : 0.5F;
-        const bool take_coat = choose_layer < share_of_coat;
-        layer = &p->layers[take_coat ? 1 : 0];
-        share = take_coat ? share_of_coat : 1.0F - share_of_coat;
-    }
+    if (p->layer_count < 2)
+        return 1.0F;
+    const float base = importance(&p->layers[0]);
+    const float coat = importance(&p->layers[1]);
+    const float share_of_coat = base + coat > 0.0F ? coat / (base + coat) : 0.5F;
+    return layer == 1 ? share_of_coat : 1.0F - share_of_coat;
+}
 
-    /* glTF: occlusion darkens diffuse light from all around, nothing else. */
+/* glTF: occlusion darkens diffuse light from all around, nothing else. */
+static glint_surface surface_in_surroundings(const shade_point *p, const shade_layer *layer)
+{
     glint_surface surface = layer->surface;
     for (int c = 0; c < 3; ++c)
         surface.diffuse[c] *= p->occlusion;
+    return surface;
+}
+
+bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)
+{
+    if (p->layer_count == 0)
+        return false;
+    const int chosen = p->layer_count == 2 && choose_layer < share_of(p, 1) ? 1 : 0;
+    const float share = share_of(p, chosen);
+    const shade_layer *const layer = &p->layers[chosen];
+    const glint_surface surface = surface_in_surroundings(p, layer);
 
     glint_sample sample;
     if (!glint_sample_direction(layer->material, &surface, NULL, layer->wo, random, &sample))
         return false;
+    out->layer = chosen;
     out->wi = to_world(layer, sample.wi);
     out->pdf = sample.pdf * share;
+    float weight[3];
+    weigh(p, (int)(layer - p->layers), out->wi, weight);
     for (int c = 0; c < 3; ++c)
-        out->weight[c] = sample.weight[c] * layer->weight / share;
+        out->weight[c] = sample.weight[c] * weight[c] / share;
     return true;
+}
+
+/* ---- light from all around, found in two ways ---- */
+
+/* A layer under a patch, with the footprint that a sample of this density stands for. */
+static void eval_patch(const shade_layer *layer, const glint_surface *surface, const shade_surroundings *s,
+                       const float wi[3], float density, glint_value *value)
+{
+    const glint_light light = { GLINT_LIGHT_CAP, fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI)) };
+    const float expected = s->solid_angle_sr * density;
+    const float grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
+    const float longer = sqrtf(grown);
+    glint_footprint footprint = layer->footprint;
+    footprint.dudx *= longer;
+    footprint.dudy *= longer;
+    footprint.dvdx *= longer;
+    footprint.dvdy *= longer;
+    glint_eval_value(layer->material, surface, layer->counts ? &footprint : NULL, layer->wo, wi, &light, value);
+    value->facet_count /= grown;
+}
+
+void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
+{
+    *value = (glint_value){ 0 };
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3], weight[3];
+        glint_value one;
+        to_local(layer, s->wi, local);
+        const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+        const float density = s->light_pdf + own;
+        if (!(density > 0.0F))
+            continue;
+        eval_patch(layer, &surface, s, local, density, &one);
+        weigh(p, i, s->wi, weight);
+        for (int c = 0; c < 3; ++c) {
+            value->rgb[c] += weight[c] * one.rgb[c] / density;
+            value->smooth[c] += weight[c] * one.smooth[c] / density;
+        }
+        if (layer->counts)
+            add_facets(&one, value);
+    }
+}
+
+void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
+                      glint_value *value)
+{
+    const shade_layer *const layer = &p->layers[found->layer];
+    const float density = s->light_pdf + found->pdf;
+    const bool counts = layer->counts && s->solid_angle_sr > 0.0F;
+    glint_value one = { 0 };
+    *value = (glint_value){ 0 };
+    if (counts) {
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3];
+        to_local(layer, s->wi, local);
+        eval_patch(layer, &surface, s, local, density, &one);
+        add_facets(&one, value);
+    }
+    for (int c = 0; c < 3; ++c) {
+        /* The sample's own quotient: a sharp lobe at a rounded direction would give another. */
+        value->smooth[c] = found->weight[c] * (found->pdf / density);
+        value->rgb[c] = value->smooth[c];
+        if (counts && one.smooth[c] > 0.0F)
+            value->rgb[c] *= one.rgb[c] / one.smooth[c];
+    }
 }

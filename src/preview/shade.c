@@ -39,6 +39,20 @@ static void look_up_base_color(const lookup *l, const scene_material *m, float r
         rgba[i] *= m->base_color[i] * l->hit->color[i];
 }
 
+static void look_up_glint(const lookup *l, const scene_glint *g, float *factor, float *density, float color[3])
+{
+    float c[4];
+    if (!g->present)
+        return;
+    look_up(l, &g->texture, c);
+    *factor *= c[0];
+    look_up(l, &g->density_texture, c);
+    *density *= c[1];
+    look_up(l, &g->color_texture, c);
+    for (int i = 0; i < 3; ++i)
+        color[i] *= c[i];
+}
+
 static scene_texels look_up_texels(const lookup *l, const scene_material *m)
 {
     scene_texels t = scene_texels_of(m);
@@ -58,15 +72,8 @@ static scene_texels look_up_texels(const lookup *l, const scene_material *m)
     t.clearcoat *= c[0];
     look_up(l, &m->clearcoat_roughness_texture, c);
     t.clearcoat_roughness *= c[1];
-    if (!m->glint.present)
-        return t;
-    look_up(l, &m->glint.texture, c);
-    t.glint_factor *= c[0];
-    look_up(l, &m->glint.density_texture, c);
-    t.glint_density *= c[1];
-    look_up(l, &m->glint.color_texture, c);
-    for (int i = 0; i < 3; ++i)
-        t.glint_color[i] *= c[i];
+    look_up_glint(l, &m->glint, &t.glint_factor, &t.glint_density, t.glint_color);
+    look_up_glint(l, &m->coat_glint, &t.coat_glint_factor, &t.coat_glint_density, t.coat_glint_color);
     return t;
 }
 
@@ -122,14 +129,6 @@ static void set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
 
 /* ---- layers ---- */
 
-/* The clear coat's Fresnel term, on the angle to the viewer: KHR_materials_clearcoat. */
-static float coat_reflectance(const glint_surface *coat, float cosine)
-{
-    const float away = 1.0F - fminf(fmaxf(cosine, 0.0F), 1.0F);
-    const float fifth = away * away * away * away * away;
-    return coat->f0[0] + (coat->f90[0] - coat->f0[0]) * fifth;
-}
-
 static void add_coat(const lookup *l, const scene_material *m, const scene_texels *t, const material_layers *handles,
                      vec3 wo, shade_point *out)
 {
@@ -142,19 +141,22 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
     coat->weight = fminf(t->clearcoat, 1.0F);
     set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
 
-    const float below = 1.0F - coat->weight * coat_reflectance(&coat->surface, coat->wo[2]);
-    out->layers[0].weight = below;
+    float below[3];
+    shade_below_coat(out, NULL, below);
+    out->layers[0].weight = (below[0] + below[1] + below[2]) / 3.0F;
     for (int i = 0; i < 3; ++i)
-        out->emission[i] *= below;
+        out->emission[i] *= below[i];
 }
 
-static void place_glints(const hit *h, const hit_step *step, const scene_glint *g, float choice, shade_point *out)
+static void place_glints(const hit *h, const hit_step *step, const scene_material *m, float choice, shade_point *out)
 {
+    static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
     for (int i = 0; i < out->layer_count; ++i) {
-        if (!out->layers[i].counts)
+        const scene_glint *const g = scene_layer_glint(m, of[i]);
+        if (!out->layers[i].counts || g == NULL)
             continue;
         float density_scale;
-        out->footprint = place_footprint(g, h, step, choice, &density_scale);
+        out->layers[i].footprint = place_footprint(g, h, step, choice, &density_scale);
         out->layers[i].surface.facets_per_m2 *= density_scale;
     }
 }
@@ -193,8 +195,9 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
     base->surface = scene_base_surface(m, &t);
     base->weight = 1.0F;
     set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
+    out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
-    place_glints(h, step, &m->glint, choice, out);
+    place_glints(h, step, m, choice, out);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)

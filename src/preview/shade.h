@@ -11,14 +11,15 @@ typedef struct shade_layer {
     glint_surface surface;
     vec3 x, y, z; /* the local frame in world space: tangent, bitangent, shading normal */
     float wo[3];  /* to the viewer, in that frame */
-    float weight; /* what the layers above leave of it, or how much of the surface the coat covers */
+    float weight; /* of the coat: how much of the surface it covers. Of the base: about what the coat leaves of it */
     bool counts;  /* wants the footprint */
+    glint_footprint footprint;
 } shade_layer;
 
 typedef struct shade_point {
-    shade_layer layers[2]; /* the base, then the coat */
-    int layer_count;       /* 0: unlit */
-    glint_footprint footprint;
+    shade_layer layers[2];       /* the base, then the coat */
+    int layer_count;             /* 0: unlit */
+    const glint_material *whole; /* both layers, of which they are part */
     float emission[3];
     float occlusion; /* of diffuse light from all around: occlusionTexture */
     float opacity;
@@ -39,15 +40,20 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
  * the picture tends to that of the true roughness. Tokuyoshi and Kaplanyan 2019, Eq. 5. */
 void shade_widen(shade_point *p, double slope_variance);
 
-/* Sum of the layers' f |cos theta_i| for light from wi (world, unit); facet_count and lit_probability are those of the
- * layer that counts. f = f_base (1 - c F) + c f_coat, F the Schlick term of the coat and c its weight
- * (KHR_materials_clearcoat). */
+/* Sum of the layers' f |cos theta_i| for light from wi (world, unit): the numbers of libglint's layered model, which
+ * has the formula. The layers are evaluated one by one because a hit has more to say of each than a glint_coat does: a
+ * frame of either handedness, and whether it counts for this ray. */
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value);
+
+/* What the coat leaves of the base for light from wi (world, unit), or of light from below where wi is NULL: see
+ * glint_transmittance. There is a coat. */
+void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);
 
 typedef struct shade_direction {
+    int layer;       /* which was chosen */
     vec3 wi;         /* world, unit */
     float weight[3]; /* f |cos theta_i| / pdf of the layer that was chosen */
     float pdf;       /* per steradian, the choice of the layer included */
@@ -55,6 +61,25 @@ typedef struct shade_direction {
 
 /* Draws a direction for indirect light from uniforms in [0, 1). False: the path ends here. */
 bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out);
+
+/* A direction that can be found in two ways: by the light's own distribution, and by shade_sample. */
+typedef struct shade_surroundings {
+    vec3 wi;
+    float light_pdf;      /* per steradian, of the first way */
+    float solid_angle_sr; /* of the patch of even light around wi; 0: it reaches all facets, count none */
+    float most_samples;   /* of a pixel: a footprint may grow so many times, and then covers the pixel */
+} shade_surroundings;
+
+/* What a direction that was found in the first way adds, per radiance: the sum over layers of f |cos theta_i| /
+ * (light_pdf
+ * + the layer's own density), which is the balance heuristic. Occlusion darkens the diffuse part.
+ *
+ * Few samples look into a patch, so each stands for more of the pixel than its own footprint: for 1 / P of it, with P
+ * samples expected there. It counts the facets of that area. */
+void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value);
+/* The same for one that shade_sample found: its layer's part. */
+void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
+                      glint_value *value);
 
 /* Opacity of a point for rays that only want to know whether they pass; textures are not filtered. */
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at);

@@ -11,6 +11,8 @@ void scene_material_textures(const scene_material *m, const scene_texture *list[
         &m->specular_color_texture,      &m->anisotropy_texture,         &m->clearcoat_texture,
         &m->clearcoat_roughness_texture, &m->clearcoat_normal_texture,   &m->glint.texture,
         &m->glint.density_texture,       &m->glint.color_texture,        &m->glint.example_texture,
+        &m->coat_glint.texture,          &m->coat_glint.density_texture, &m->coat_glint.color_texture,
+        &m->coat_glint.example_texture,
     };
     memcpy(list, all, sizeof all);
 }

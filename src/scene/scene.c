@@ -41,6 +41,7 @@ static void free_names(scene *s)
         free(s->lights[i].name);
     for (int i = 0; i < s->variant_count; i++)
         free(s->variants[i]);
+    free(s->environment.name);
 }
 
 void scene_free(scene *s)
@@ -100,5 +101,13 @@ scene_material scene_material_default(void)
                              .clearcoat_texture = scene_texture_none(),
                              .clearcoat_roughness_texture = scene_texture_none(),
                              .clearcoat_normal_texture = scene_texture_none(),
-                             .glint = glint_default() };
+                             .glint = glint_default(),
+                             .coat_glint = glint_default() };
+}
+
+const scene_glint *scene_layer_glint(const scene_material *m, scene_glint_layer layer)
+{
+    const scene_glint *const glint =
+        layer == SCENE_LAYER_CLEARCOAT && m->coat_glint.present ? &m->coat_glint : &m->glint;
+    return glint->present && glint->layer == layer ? glint : NULL;
 }

@@ -92,7 +92,8 @@ typedef struct scene_material {
     scene_texture anisotropy_texture;
     float clearcoat, clearcoat_roughness;
     scene_texture clearcoat_texture, clearcoat_roughness_texture, clearcoat_normal_texture; /* R; G */
-    scene_glint glint;
+    scene_glint glint;      /* of the material: of the layer that it names */
+    scene_glint coat_glint; /* of KHR_materials_clearcoat: of the coat, beside glint in the base */
 } scene_material;
 
 /* One glTF primitive as triangles. Arrays that a file leaves out and that cannot be computed are NULL. */
@@ -127,9 +128,16 @@ typedef struct scene_camera {
     float to_world[16];
 } scene_camera;
 
-typedef enum scene_light_kind { SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_POINT, SCENE_LIGHT_SPOT } scene_light_kind;
+typedef enum scene_light_kind {
+    SCENE_LIGHT_DIRECTIONAL,
+    SCENE_LIGHT_POINT,
+    SCENE_LIGHT_SPOT,
+    SCENE_LIGHT_RECT, /* from -width / 2 to width / 2 along x, likewise y; shines to one side, along -z */
+    SCENE_LIGHT_DISK  /* width is its diameter, and so is height */
+} scene_light_kind;
 
-/* KHR_lights_punctual. Intensity is taken as it stands: directional E (W/m^2), point and spot I (W/sr). */
+/* KHR_lights_punctual and EXT_lights_area. Intensity is taken as it stands: directional E (W/m^2), point and spot
+ * I (W/sr), rectangle and disk L (W/(m^2 sr), the extension's nits). */
 typedef struct scene_light {
     char *name;
     scene_light_kind kind;
@@ -138,8 +146,18 @@ typedef struct scene_light {
     float inner_cone_rad, outer_cone_rad;
     float angular_diameter_rad; /* directional: extras.angularDiameter (rad), default the sun's, .00929 */
     float radius_m;             /* point and spot: extras.radius (m), default .01 */
+    float width_m, height_m; /* rectangle and disk, as large as they are in the world: to_world scales them no more */
     float to_world[16];
 } scene_light;
+
+/* EXT_lights_image_based: light from all around, on the faces of a cube seen from its middle. */
+typedef struct scene_environment {
+    bool present;
+    char *name;
+    int faces[6];      /* images of +x, -x, +y, -y, +z and -z; see io/environment_map.h for their orientation */
+    float rotation[4]; /* a unit quaternion x y z w that turns the cube */
+    float intensity;
+} scene_environment;
 
 typedef struct scene {
     char *path;
@@ -155,6 +173,7 @@ typedef struct scene {
     int camera_count;
     scene_light *lights;
     int light_count;
+    scene_environment environment;
     char **variants;
     int variant_count;
     float bounds_min[3], bounds_max[3]; /* of all instances, in world space; min > max when there are none */
@@ -165,8 +184,10 @@ void scene_free(scene *s);
 /* A material with the defaults of the glTF text and no glints. */
 scene_material scene_material_default(void);
 scene_texture scene_texture_none(void);
+/* The glints of a layer, whichever extension they come from; NULL: there are none. */
+const scene_glint *scene_layer_glint(const scene_material *m, scene_glint_layer layer);
 
-#define SCENE_MATERIAL_TEXTURES 15
+#define SCENE_MATERIAL_TEXTURES 19
 /* All textures of a material, those without an image included. They belong to m. */
 void scene_material_textures(const scene_material *m, const scene_texture *list[SCENE_MATERIAL_TEXTURES]);
 

@@ -26,7 +26,8 @@ static float alpha_of(float roughness)
 
 static bool has_glints(const scene_material *m, scene_glint_layer layer)
 {
-    return m->glint.present && m->glint.factor > 0.0F && m->glint.layer == layer;
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    return g != NULL && g->factor > 0.0F;
 }
 
 scene_texels scene_texels_of(const scene_material *m)
@@ -38,12 +39,15 @@ scene_texels scene_texels_of(const scene_material *m)
                        .clearcoat = m->clearcoat,
                        .clearcoat_roughness = m->clearcoat_roughness,
                        .glint_factor = m->glint.present ? m->glint.factor : 0.0F,
-                       .glint_density = m->glint.density };
+                       .glint_density = m->glint.density,
+                       .coat_glint_factor = m->coat_glint.present ? m->coat_glint.factor : 0.0F,
+                       .coat_glint_density = m->coat_glint.density };
     for (int i = 0; i < 4; ++i)
         t.base_color[i] = m->base_color[i];
     for (int i = 0; i < 3; ++i) {
         t.specular_color[i] = m->specular_color[i];
         t.glint_color[i] = m->glint.color[i];
+        t.coat_glint_color[i] = m->coat_glint.color[i];
     }
     return t;
 }
@@ -53,11 +57,13 @@ static void add_glints(const scene_material *m, const scene_texels *t, scene_gli
 {
     if (!has_glints(m, layer))
         return;
-    s->facets_per_m2 = fmaxf(t->glint_density, 0.0F);
-    s->discreteness = clampf(t->glint_factor, 0.0F, 1.0F);
+    const bool is_coats = scene_layer_glint(m, layer) == &m->coat_glint;
+    const float *const color = is_coats ? t->coat_glint_color : t->glint_color;
+    s->facets_per_m2 = fmaxf(is_coats ? t->coat_glint_density : t->glint_density, 0.0F);
+    s->discreteness = clampf(is_coats ? t->coat_glint_factor : t->glint_factor, 0.0F, 1.0F);
     for (int i = 0; i < 3; ++i) {
         /* glintColorFactor tints the share of the light that is counted. */
-        const float tint = mixf(1.0F, clampf(t->glint_color[i], 0.0F, 1.0F), s->discreteness);
+        const float tint = mixf(1.0F, clampf(color[i], 0.0F, 1.0F), s->discreteness);
         s->f0[i] *= tint;
         s->f90[i] *= tint;
     }
@@ -103,16 +109,21 @@ static glint_material_options layer_options(const scene_material *m, glint_model
     o.fresnel = GLINT_FRESNEL_SCHLICK;
     o.model = GLINT_MODEL_SMOOTH;
     if (has_glints(m, layer)) {
+        const scene_glint *const g = scene_layer_glint(m, layer);
         o.model = model;
-        o.distribution = m->glint.distribution;
-        o.facet_alpha = m->glint.facet_roughness * m->glint.facet_roughness;
-        o.coverage = m->glint.coverage;
-        o.elongation = m->glint.elongation;
-        o.density_variation = fminf(m->glint.density_variation, 8.0F); /* glTF sets no upper bound */
-        o.color_variation = m->glint.color_variation;
-        o.color_count = m->glint.color_count;
-        memcpy(o.colors, m->glint.colors, sizeof o.colors);
-        o.seed = m->glint.seed;
+        o.distribution = g->distribution;
+        o.facet_alpha = g->facet_roughness * g->facet_roughness;
+        o.coverage = g->coverage;
+        o.elongation = g->elongation;
+        o.density_variation = fminf(g->density_variation, 8.0F); /* glTF sets no upper bound */
+        /* The one without GLINT_FEATURE_COLOR. */
+        if (model != GLINT_MODEL_EXAMPLE) {
+            o.color_variation = g->color_variation;
+            o.color_count = g->color_count;
+            memcpy(o.colors, g->colors, sizeof o.colors);
+        }
+        /* A bit that no seed of a file has, so that equal seeds are not equal facets. */
+        o.seed = layer == SCENE_LAYER_CLEARCOAT && has_glints(m, SCENE_LAYER_BASE) ? g->seed | 0x80000000U : g->seed;
     }
     const scene_texels t = scene_texels_of(m);
     o.surface = layer == SCENE_LAYER_BASE ? scene_base_surface(m, &t) : scene_coat_surface(m, &t);

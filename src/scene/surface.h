@@ -15,7 +15,8 @@ typedef struct scene_texels {
     float specular, specular_color[3];
     float anisotropy; /* strength */
     float clearcoat, clearcoat_roughness;
-    float glint_factor, glint_density, glint_color[3];
+    float glint_factor, glint_density, glint_color[3];                /* of scene_material.glint */
+    float coat_glint_factor, coat_glint_density, coat_glint_color[3]; /* of scene_material.coat_glint */
 } scene_texels;
 
 /* The material's own factors: what every texel is multiplied with. */
@@ -27,7 +28,8 @@ glint_surface scene_base_surface(const scene_material *m, const scene_texels *t)
 /* The clear coat at a point: a dielectric of ior 1.5 over the base (KHR_materials_clearcoat), without its weight. */
 glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t);
 
-/* What is common to all points; model GLINT_MODEL_SMOOTH where the layer has no glints. */
+/* What is common to all points; model GLINT_MODEL_SMOOTH where the layer has no glints. Layers never share facets:
+ * where both have glints the coat's seed is another even when the file says the same. */
 glint_material_options scene_base_options(const scene_material *m, glint_model model);
 glint_material_options scene_coat_options(const scene_material *m, glint_model model);
 

@@ -1,7 +1,7 @@
 #!/bin/bash
-# The dynamic symbols of the library are the functions that glint.h declares: none more, none fewer.
+# The dynamic symbols of the library $3 are the functions that the header $2 declares: none more, none fewer.
 set -euo pipefail
-declared=$(grep '^GLINT_API' "$1/moved/include/glint.h" | grep -o 'glint_[a-z0-9_]*(' | tr -d '(' | sort)
-exported=$(nm --dynamic --defined-only --format=posix "$1/moved/lib/libglint.so" | cut -d' ' -f1 | sort)
+declared=$(grep -E '^GLINT_(EXPORT_)?API' "$1/moved/include/$2" | grep -o 'glint_[a-z0-9_]*(' | tr -d '(' | sort)
+exported=$(nm --dynamic --defined-only --format=posix "$1/moved/lib/$3" | cut -d' ' -f1 | sort)
 [ -n "$declared" ]
-diff <(echo "$declared") <(echo "$exported") || { echo "declared in glint.h (<) and exported (>) differ"; exit 1; }
+diff <(echo "$declared") <(echo "$exported") || { echo "declared in $2 (<) and exported (>) differ"; exit 1; }

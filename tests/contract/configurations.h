@@ -28,7 +28,7 @@ typedef struct model_row {
 static const model_row MODELS[] = {
     { GLINT_MODEL_SMOOTH, 1, 1e18, 0.0 },     { GLINT_MODEL_COUNTING, 1, 1e18, 0.0 },
     { GLINT_MODEL_EXPLICIT, 0, 1500.0, 0.0 }, { GLINT_MODEL_DICTIONARY, 1, 1e18, 1.3e-3 },
-    { GLINT_MODEL_EXAMPLE, 1, 1e18, 0.0 },
+    { GLINT_MODEL_EXAMPLE, 1, 1e18, 0.0 },    { GLINT_MODEL_LAYERED, 1, 1e18, 1.3e-3 },
 };
 
 typedef struct configuration {
@@ -63,8 +63,8 @@ static inline void set_example(glint_example *e, int i)
     }
 }
 
-/* Configuration i of a model. */
-static inline configuration configuration_of(glint_model model, int i)
+/* Configuration i of a model that is no pair of layers. */
+static inline configuration single_configuration(glint_model model, int i)
 {
     static const char *const names[CONFIGURATIONS] = { "GGX",
                                                        "Beckmann",
@@ -117,6 +117,72 @@ static inline configuration configuration_of(glint_model model, int i)
     if (model == GLINT_MODEL_EXAMPLE)
         set_example(&o.example, i);
     return (configuration){ names[i], o };
+}
+
+/* A coat over a base, each in another configuration. */
+static inline configuration layered_configuration(int i)
+{
+    static const struct {
+        const char *name;
+        glint_model base, coat;
+    } pairs[CONFIGURATIONS] = { { "smooth under smooth", GLINT_MODEL_SMOOTH, GLINT_MODEL_SMOOTH },
+                                { "counting under counting", GLINT_MODEL_COUNTING, GLINT_MODEL_COUNTING },
+                                { "dictionary under counting", GLINT_MODEL_DICTIONARY, GLINT_MODEL_COUNTING },
+                                { "example under explicit", GLINT_MODEL_EXAMPLE, GLINT_MODEL_EXPLICIT },
+                                { "counting under dictionary", GLINT_MODEL_COUNTING, GLINT_MODEL_DICTIONARY },
+                                { "counting under example", GLINT_MODEL_COUNTING, GLINT_MODEL_EXAMPLE },
+                                { "smooth under counting", GLINT_MODEL_SMOOTH, GLINT_MODEL_COUNTING },
+                                { "dictionary under dictionary", GLINT_MODEL_DICTIONARY, GLINT_MODEL_DICTIONARY } };
+    static glint_material_options layers[CONFIGURATIONS][2];
+    glint_material_options *base = &layers[i][0], *coat = &layers[i][1];
+    *base = single_configuration(pairs[i].base, i).options;
+    *coat = single_configuration(pairs[i].coat, (i + 3) % CONFIGURATIONS).options;
+    coat->seed = 1U;
+    for (int c = 0; c < 3; c++)
+        coat->surface.f0[c] = 0.04F + 0.1F * (float)c;
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.model = GLINT_MODEL_LAYERED;
+    o.layers.base = base;
+    o.layers.coat = coat;
+    o.layers.coat_weight = i % 2 ? 0.7F : 1.0F;
+    return (configuration){ pairs[i].name, o };
+}
+
+/* Configuration i of a model. */
+static inline configuration configuration_of(glint_model model, int i)
+{
+    return model == GLINT_MODEL_LAYERED ? layered_configuration(i) : single_configuration(model, i);
+}
+
+/* Whether the model, or one of the layers, is this one. */
+static inline int has_model(const configuration *c, glint_model model)
+{
+    const glint_material_options *o = &c->options;
+    return o->model == model ||
+           (o->model == GLINT_MODEL_LAYERED && (o->layers.base->model == model || o->layers.coat->model == model));
+}
+
+static inline int is_reciprocal(const model_row *row, const configuration *c)
+{
+    return row->reciprocal && !has_model(c, GLINT_MODEL_EXPLICIT);
+}
+
+static inline double most_facets(const model_row *row, const configuration *c)
+{
+    return has_model(c, GLINT_MODEL_EXPLICIT) ? 1500.0 : row->most_facets;
+}
+
+/* The material's own surface with this density, of both layers where there are two; coat: room for the second. */
+static inline glint_surface surface_of_density(const glint_material *m, float facets_per_m2, glint_coat *coat)
+{
+    glint_surface s = glint_material_surface(m);
+    s.facets_per_m2 = facets_per_m2;
+    if (s.coat) {
+        *coat = *s.coat;
+        coat->surface.facets_per_m2 = facets_per_m2;
+        s.coat = coat;
+    }
+    return s;
 }
 
 static inline glint_material *create(const glint_material_options *o)

@@ -65,6 +65,51 @@ static void bad_colors_are_named_by_their_place(void **state)
     glint_material_destroy(m);
 }
 
+static void bad_layers_are_named_by_their_place(void **state)
+{
+    (void)state;
+    const glint_material_options plain = GLINT_MATERIAL_OPTIONS_INIT;
+    glint_material_options bad = plain, nested = plain, tinted = plain;
+    bad.coverage = 2.0F;
+    nested.model = GLINT_MODEL_LAYERED;
+    nested.layers.base = nested.layers.coat = &plain;
+    tinted.model = GLINT_MODEL_EXPLICIT;
+    tinted.surface.f0[2] = NAN;
+    const struct {
+        const glint_material_options *base, *coat;
+        float weight, normal_z, tangent_x;
+        glint_result result;
+        const char *expected;
+    } cases[] = {
+        { NULL, &plain, 1, 1, 1, GLINT_ERROR_ARGUMENT, "layers.base is NULL, expected the options of that layer" },
+        { &plain, NULL, 1, 1, 1, GLINT_ERROR_ARGUMENT, "layers.coat is NULL, expected the options of that layer" },
+        { &plain, &plain, 1.5F, 1, 1, GLINT_ERROR_RANGE, "layers.coat_weight is 1.5, expected 0 to 1" },
+        { &plain, &plain, 1, 3, 1, GLINT_ERROR_RANGE,
+          "layers.coat_normal is (0, 0, 3), expected a vector of length 1" },
+        { &plain, &plain, 1, 1, 0, GLINT_ERROR_RANGE,
+          "layers.coat_tangent is (0, 0, 0), expected a vector of length 1" },
+        { &bad, &plain, 1, 1, 1, GLINT_ERROR_RANGE, "layers.base.coverage is 2, expected 0 to 1" },
+        { &plain, &bad, 1, 1, 1, GLINT_ERROR_RANGE, "layers.coat.coverage is 2, expected 0 to 1" },
+        { &plain, &tinted, 1, 1, 1, GLINT_ERROR_RANGE, "layers.coat.surface.f0[2] is nan, expected 0 to 1" },
+        { &plain, &nested, 1, 1, 1, GLINT_ERROR_UNSUPPORTED,
+          "layers.coat.model is layered, expected a model of one layer" },
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+        o.model = GLINT_MODEL_LAYERED;
+        o.layers = (glint_layers){ cases[i].base,
+                                   cases[i].coat,
+                                   cases[i].weight,
+                                   { 0.0F, 0.0F, cases[i].normal_z },
+                                   { cases[i].tangent_x, 0.0F, 0.0F } };
+        glint_material *m;
+        char message[200];
+        assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), cases[i].result);
+        assert_null(m);
+        assert_string_equal(message, cases[i].expected);
+    }
+}
+
 static void unknown_enum_values_are_refused(void **state)
 {
     (void)state;
@@ -116,28 +161,37 @@ static void counted_release(void *memory, void *user)
     free(memory);
 }
 
+static void fail_each_allocation(const configuration *of)
+{
+    glint_material_options o = of->options;
+    counter c = { 0, 0, -1 };
+    o.allocator = (glint_allocator){ counted_allocate, counted_release, &c };
+    glint_material *m = create(&o);
+    const int needed = c.allocations;
+    /* Set-up may give back some of it at once. */
+    assert_true(needed > 0 && c.live > 0 && c.live <= needed);
+    glint_material_destroy(m);
+    assert_int_equal(c.live, 0);
+    for (int n = 0; n < needed; n++) {
+        char message[128];
+        c = (counter){ 0, 0, n };
+        assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), GLINT_ERROR_MEMORY);
+        assert_null(m);
+        assert_int_equal(c.live, 0);
+        assert_non_null(strstr(message, glint_model_name(o.model)));
+    }
+}
+
 static void any_failed_allocation_is_reported_and_leaves_nothing(void **state)
 {
     (void)state;
     for (uint32_t model = 0; model < glint_model_count(); model++) {
-        glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-        o.model = (glint_model)model;
-        counter c = { 0, 0, -1 };
-        o.allocator = (glint_allocator){ counted_allocate, counted_release, &c };
-        glint_material *m = create(&o);
-        const int needed = c.allocations;
-        /* Set-up may give back some of it at once. */
-        assert_true(needed > 0 && c.live > 0 && c.live <= needed);
-        glint_material_destroy(m);
-        assert_int_equal(c.live, 0);
-        for (int n = 0; n < needed; n++) {
-            char message[128];
-            c = (counter){ 0, 0, n };
-            assert_int_equal(glint_material_create(&o, &m, message, sizeof(message)), GLINT_ERROR_MEMORY);
-            assert_null(m);
-            assert_int_equal(c.live, 0);
-            assert_non_null(strstr(message, glint_model_name((glint_model)model)));
-        }
+        const configuration c = configuration_of((glint_model)model, 0);
+        fail_each_allocation(&c);
+    }
+    for (int i = 1; i < CONFIGURATIONS; i++) {
+        const configuration c = configuration_of(GLINT_MODEL_LAYERED, i);
+        fail_each_allocation(&c);
     }
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.allocator.allocate = counted_allocate;
@@ -176,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_options_are_named_with_their_range),
         cmocka_unit_test(bad_colors_are_named_by_their_place),
+        cmocka_unit_test(bad_layers_are_named_by_their_place),
         cmocka_unit_test(unknown_enum_values_are_refused),
         cmocka_unit_test(wrong_size_is_refused_and_short_messages_are_cut),
         cmocka_unit_test(any_failed_allocation_is_reported_and_leaves_nothing),

@@ -28,7 +28,7 @@ static void light_and_viewer_may_be_exchanged(void **state)
     uint64_t random = 2;
     FOR_EACH_CONFIGURATION(c, m, row)
     {
-        if (!row->reciprocal)
+        if (!is_reciprocal(row, &c))
             continue;
         for (int i = 0; i < 20000; i++) {
             float wo[3], wi[3], there[3], back[3];
@@ -121,8 +121,8 @@ static double roughness_of(const glint_material *m, double facets, uint64_t *ran
 {
     moments square = { 0 };
     const float wo[3] = { 0.0F, 0.0F, 1.0F };
-    glint_surface s = glint_material_surface(m);
-    s.facets_per_m2 = (float)(facets / 1e-6);
+    glint_coat coat;
+    const glint_surface s = surface_of_density(m, (float)(facets / 1e-6), &coat);
     for (int i = 0; i < 4000; i++) {
         float wi[3];
         direction(random_between(random, 0.0, 0.3), 1.0, wi);
@@ -145,14 +145,14 @@ static void tends_to_smooth_as_density_grows(void **state)
     FOR_EACH_CONFIGURATION(c, m, row)
     {
         double last = HUGE_VAL;
-        for (double n = 100.0; n < fmin(1e12, row->most_facets); n *= 10.0) {
+        for (double n = 100.0; n < fmin(1e12, most_facets(row, &c)); n *= 10.0) {
             const double r = roughness_of(m, n, &random);
             /* The error falls with the square root: by 3.2 for ten times the facets, give or take the noise of 4000
              * points. */
             assert_true(r <= last * 0.5 + row->resolution + 1e-6);
             last = r;
         }
-        if (row->most_facets > 1e12)
+        if (most_facets(row, &c) > 1e12)
             assert_true(last < 1e-4);
     }
 }

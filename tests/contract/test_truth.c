@@ -1,5 +1,4 @@
-/* Values against independent truths: Cook-Torrance in double precision, and the mean of the counting model over seeds.
- */
+/* Values against an independent truth: Cook-Torrance in double precision. The mean over seeds: tests/study/mean.c. */
 #include "configurations.h"
 
 #include <stdlib.h>
@@ -66,109 +65,10 @@ static void smooth_agrees_with_double_precision(void **state)
     assert_true(worst[0] < 1e-5 && worst[1] < 1e-5);
 }
 
-enum { CHUNK = 4096 };
-
-/* Ratio of counting to smooth over seeds and places, until its standard error is below a quarter of half a percent. */
-static moments ratio_over_seeds(const glint_material *m, double facets, double tilt, uint64_t *random)
-{
-    static double u[CHUNK], v[CHUNK];
-    static float jacobian[4][CHUNK], wo[3][CHUNK], wi[3][CHUNK], solid_angle[CHUNK], rgb[3][CHUNK];
-    static uint32_t seed[CHUNK];
-    static glint_surface surface[CHUNK];
-    float o[3], i[3], smooth[3];
-    direction(tilt, 0.4, o);
-    direction(fmax(tilt - 0.1, 0.05), 0.4 + PI, i);
-    glint_eval(m, NULL, NULL, o, i, NULL, smooth);
-    glint_surface s = glint_material_surface(m);
-    s.facets_per_m2 = (float)(facets / 1e-6);
-
-    /* The light's size that makes a tenth of the facets lit: at one facet a pixel a smaller one would take 10^9
-     * samples. */
-    const glint_footprint unit = { .dudx = 1e-3F, .dvdy = 1e-3F };
-    const glint_light probe = { GLINT_LIGHT_CAP, 1e-4F };
-    glint_value value;
-    glint_eval_value(m, &s, &unit, o, i, &probe, &value);
-    const float angle = fminf(1e-4F * 0.1F / value.lit_probability, 6.0F);
-
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = CHUNK;
-    b.u = u;
-    b.v = v;
-    b.dudx = jacobian[0];
-    b.dudy = jacobian[1];
-    b.dvdx = jacobian[2];
-    b.dvdy = jacobian[3];
-    b.seed = seed;
-    b.solid_angle_sr = solid_angle;
-    b.surfaces = surface;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = wo[k];
-        b.wi[k] = wi[k];
-        b.rgb[k] = rgb[k];
-        for (int n = 0; n < CHUNK; n++) {
-            wo[k][n] = o[k];
-            wi[k][n] = i[k];
-        }
-    }
-    moments ratio = { 0 };
-    do {
-        for (int n = 0; n < CHUNK; n++) {
-            /* A footprint of 1 mm^2, stretched as a plane tilted this much shows it, in any direction. */
-            const double stretch = 1.0 / cos(tilt), turn = random_between(random, 0.0, 2.0 * PI);
-            const double a = 1e-3 * sqrt(stretch), c = 1e-3 / sqrt(stretch);
-            jacobian[0][n] = (float)(a * cos(turn));
-            jacobian[1][n] = (float)(-c * sin(turn));
-            jacobian[2][n] = (float)(a * sin(turn));
-            jacobian[3][n] = (float)(c * cos(turn));
-            u[n] = random_between(random, -100.0, 100.0);
-            v[n] = random_between(random, -100.0, 100.0);
-            seed[n] = (uint32_t)random_bits(random);
-            solid_angle[n] = angle;
-            surface[n] = s;
-        }
-        assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
-        for (int n = 0; n < CHUNK; n++)
-            moments_add(&ratio, (double)(rgb[0][n] / smooth[0]));
-    } while (ratio.count < 20000.0 || moments_standard_error(&ratio) > 0.00125);
-    return ratio;
-}
-
-static void mean_over_seeds_is_smooth(void **state)
-{
-    (void)state;
-    static const double facets[] = { 1.0, 10.0, 100.0, 1e3, 1e5, 1e7 }, tilts[] = { 0.0, 25.0, 50.0, 75.0 };
-    uint64_t random = 2;
-    double worst = 0.0;
-    printf("mean of counting / smooth over seeds, in sigmas of its own standard error (at most .00125)\n");
-    printf("%-14s %5s", "", "tilt");
-    for (int k = 0; k < 6; k++)
-        printf("  N = %-7g", facets[k]);
-    for (int i = 0; i < 4; i++) {
-        configuration c = configuration_of(GLINT_MODEL_COUNTING, i);
-        glint_material *m = create(&c.options);
-        for (int t = 0; t < 4; t++) {
-            printf("\n%-14s %5.0f", c.name, tilts[t]);
-            for (int k = 0; k < 6; k++) {
-                const moments r = ratio_over_seeds(m, facets[k], tilts[t] * PI / 180.0, &random);
-                const double error = r.mean - 1.0, sigmas = error / moments_standard_error(&r);
-                printf("  %.4f %+.1f", r.mean, sigmas);
-                worst = fmax(worst, fabs(error));
-                /* 96 means: 4.2 sigmas is a significance of .003 in all; the float ratio itself is off by a few 1e-7.
-                 */
-                assert_true(fabs(error) < 4.2 * moments_standard_error(&r) + 1e-6);
-            }
-        }
-        glint_material_destroy(m);
-    }
-    printf("\nlargest deviation %.2f %% (bound 0.5 %%)\n", 100.0 * worst);
-    assert_true(worst < 0.005);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smooth_agrees_with_double_precision),
-        cmocka_unit_test(mean_over_seeds_is_smooth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,4 +2,4 @@
 # Every source file is as clang-format 14 would write it. `./dev format` calls this with -i, which rewrites them instead.
 set -euo pipefail
 [ $# -gt 0 ] || set -- --dry-run -Werror
-find src examples tests -regex '.*\.\(c\|h\|cpp\|hpp\|inc\)' -print0 | xargs -0 clang-format-14 "$@"
+find src exporters examples tests -regex '.*\.\(c\|h\|cpp\|hpp\|inc\)' -print0 | xargs -0 clang-format-14 "$@"

@@ -87,6 +87,37 @@ static float hostile(uint64_t *random, float ordinary)
     return r & 1 ? ordinary : float_of((uint32_t)(r >> 32));
 }
 
+static void roughen(glint_surface *s, uint64_t *random)
+{
+    s->alpha_x = hostile(random, s->alpha_x);
+    s->alpha_y = hostile(random, s->alpha_y);
+    s->facets_per_m2 = hostile(random, s->facets_per_m2);
+    s->discreteness = hostile(random, s->discreteness);
+    for (int k = 0; k < 3; k++) {
+        s->diffuse[k] = hostile(random, s->diffuse[k]);
+        s->f0[k] = hostile(random, s->f0[k]);
+        s->f90[k] = hostile(random, s->f90[k]);
+    }
+}
+
+/* A coat in any frame, one in four out of its mind altogether; only the layered model looks at it. */
+static glint_coat hostile_coat(const glint_surface *surface, const glint_footprint *f, uint64_t *random)
+{
+    glint_coat c = GLINT_COAT_INIT;
+    const int wild = random_bits(random) % 4 == 0;
+    c.surface = *surface;
+    roughen(&c.surface, random);
+    c.weight = hostile(random, (float)random_uniform(random));
+    c.footprint = random_bits(random) & 1 ? f : NULL;
+    random_direction(random, c.normal);
+    random_direction(random, c.tangent);
+    for (int k = 0; wild && k < 3; k++) {
+        c.normal[k] = hostile(random, c.normal[k]);
+        c.tangent[k] = hostile(random, c.tangent[k]);
+    }
+    return c;
+}
+
 static void random_bits_are_sane(void **state)
 {
     (void)state;
@@ -111,15 +142,12 @@ static void random_bits_are_sane(void **state)
         if (i % 3 == 0)
             memcpy(&f.u, &place, sizeof(place));
         glint_surface s = glint_material_surface(m);
-        s.alpha_x = hostile(&random, s.alpha_x);
-        s.alpha_y = hostile(&random, s.alpha_y);
-        s.facets_per_m2 = hostile(&random, s.facets_per_m2);
-        s.discreteness = hostile(&random, s.discreteness);
-        for (int k = 0; k < 3; k++) {
-            s.diffuse[k] = hostile(&random, s.diffuse[k]);
-            s.f0[k] = hostile(&random, s.f0[k]);
-            s.f90[k] = hostile(&random, s.f90[k]);
-        }
+        roughen(&s, &random);
+        glint_footprint other = random_footprint(&random);
+        other.dvdx = hostile(&random, other.dvdx);
+        const glint_coat coat = hostile_coat(&s, &other, &random);
+        if (i % 4)
+            s.coat = &coat;
         const glint_light light = { GLINT_LIGHT_CAP, hostile(&random, 1e-4F) };
         glint_value v;
         glint_eval_value(m, &s, &f, wo, wi, &light, &v);
@@ -131,6 +159,10 @@ static void random_bits_are_sane(void **state)
                            0.0F,
                            0.0F,
                            0 };
+        assert_sane(&v);
+        float through[3];
+        glint_transmittance(m, i % 2 ? &coat : NULL, wo, i % 3 ? wi : NULL, through);
+        v = (glint_value){ { through[0], through[1], through[2] }, { 0 }, 0.0F, 0.0F, 0 };
         assert_sane(&v);
     }
 }
@@ -181,7 +213,8 @@ static void random_batches_are_sane(void **state)
                                 { wi[0], wi[1], wi[2] },
                                 angle,
                                 surface,
-                                { rgb[0], rgb[1], rgb[2] } };
+                                { rgb[0], rgb[1], rgb[2] },
+                                NULL };
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
         for (int i = 0; i < COUNT; i++)
             assert_sane(&(glint_value){ { rgb[0][i], rgb[1][i], rgb[2][i] }, { 0 }, 0, 0, 0 });
@@ -207,8 +240,8 @@ static void degenerate_footprints_give_the_smooth_limit(void **state)
             assert_memory_equal(rgb, smooth, sizeof(rgb));
         }
         /* So does a density of zero, as a texture may say. */
-        glint_surface s = glint_material_surface(m);
-        s.facets_per_m2 = 0.0F;
+        glint_coat coat;
+        const glint_surface s = surface_of_density(m, 0.0F, &coat);
         const glint_footprint f = { .dudx = 1e-3F, .dvdy = 1e-3F };
         float rgb[3];
         glint_eval(m, &s, &f, wo, wi, &light, rgb);

@@ -85,8 +85,8 @@ static void shares_are_linear_in_area(void **state)
         float share[GRID_COUNT];
         grid_tetrahedron(&shape, vertex, share);
         double sum = 0.0;
-        for (int i = 0; i < GRID_COUNT; i++) /* sqrt(3)/2 of a stretched square of side 2^level */
-            sum += (double)share[i] * 0.86602540378 * ldexp(1.0, 2 * vertex[i].level + vertex[i].ratio);
+        for (int i = 0; i < GRID_COUNT; i++) /* sqrt(3)/2 of a stretched square of area 2^level */
+            sum += (double)share[i] * 0.86602540378 * ldexp(1.0, vertex[i].level + vertex[i].ratio);
         worst = fmax(worst, fabs(sum / area - 1.0));
         /* The area from the axes, in double. */
         assert_true(fabs(area / (p.e.major * p.e.major / p.e.aspect) - 1.0) < 2e-7 * p.e.aspect + 2e-7);

@@ -1,0 +1,85 @@
+/* libglint_export: scenes and materials written for other programs.
+ *
+ * Conventions, for every function below:
+ *  - Options are structs whose first member is their size, set by an _INIT macro, so that they can grow.
+ *  - Paths and texts are UTF-8. A preset is the name of one that is installed, or a path with a slash or that ends in
+ *    .json.
+ *  - A function returns GLINT_EXPORT_OK or says why not: message, where it is not NULL, then holds at most message_size
+ *    bytes (terminator included) that name the file, the place in it or the option, what was found and what was
+ *    expected.
+ *  - Files are written beside their names and renamed into place: after a failure the old ones are there, whole.
+ *  - Nothing is kept between calls; any number of threads may call at once.
+ */
+#ifndef GLINT_EXPORT_H
+#define GLINT_EXPORT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define GLINT_EXPORT_API __attribute__((visibility("default")))
+#else
+#define GLINT_EXPORT_API
+#endif
+
+typedef enum glint_export_result {
+    GLINT_EXPORT_OK = 0,
+    GLINT_EXPORT_BAD_INPUT = 1,  /* a file that cannot be read, understood or written */
+    GLINT_EXPORT_WRONG_USAGE = 2 /* options that cannot be */
+} glint_export_result;
+
+/* NAME=VALUE, as on the command line. */
+typedef struct glint_export_assignment {
+    const char *name, *value;
+} glint_export_assignment;
+
+/* What every exporter tells its caller besides errors. */
+typedef struct glint_export_listener {
+    void (*warn)(const char *text, void *user); /* NULL: warnings are dropped */
+    void *user;
+} glint_export_listener;
+
+/* Frees a text that one of these functions handed out; NULL is allowed. */
+GLINT_EXPORT_API void glint_export_free(char *text);
+
+/* ---- glTF ---- */
+
+typedef struct glint_export_gltf_options {
+    size_t size;       /* set by GLINT_EXPORT_GLTF_OPTIONS_INIT */
+    const char *input; /* .gltf or .glb */
+    /* The same kind of file as the input, which it may replace. In another folder, the files that a .gltf points to are
+     * copied there too. NULL: everything is checked and nothing written. */
+    const char *output;
+    /* A material (its name, "materials/N" where it has none, "default" for that of primitives without one, "*" for all)
+     * = a preset. The last that fits counts. */
+    const glint_export_assignment *materials;
+    size_t material_count;
+    /* A JSON pointer = a JSON value, or a string without its quotes. "/glintDensity" means that property of every
+     * material above or, without any above, of every material with the extension; "/materials/3/extensions/
+     * GLINT_materials_glint/glintDensity" means one. */
+    const glint_export_assignment *values;
+    size_t value_count;
+    int strip; /* 1: first takes back all that earlier exports changed; without a record of them, the extension */
+    /* 1: writes OUT.fallback.glb or .gltf too: glints as a normal map, for viewers that do not know the extension */
+    int bake_fallback;
+    glint_export_listener listener;
+    char **summary; /* not NULL: gets a JSON document of what was done; see docs/command.md */
+} glint_export_gltf_options;
+
+#define GLINT_EXPORT_GLTF_OPTIONS_INIT                                                                                 \
+    {                                                                                                                  \
+        sizeof(glint_export_gltf_options), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0 }, 0                                         \
+    }
+
+/* Puts presets on materials of a glTF 2.0 file and leaves every other byte of its JSON and its buffers as it is. */
+GLINT_EXPORT_API glint_export_result glint_export_gltf(const glint_export_gltf_options *options, char *message,
+                                                       size_t message_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,82 @@
+// What is there already is used again: this keeps files small and makes a second export change nothing.
+#include "exporters/gltf/textures.hpp"
+
+#include "io/file_error.hpp"
+
+namespace
+{
+
+// Only these two are in glTF 2.0 itself (section 3.8.3).
+const char *mime_type(const std::vector<uint8_t> &bytes, const std::string &place)
+{
+    constexpr uint8_t png[] = { 0x89, 'P', 'N', 'G' }, jpeg[] = { 0xFF, 0xD8, 0xFF };
+    if (bytes.size() > 4 && std::equal(png, png + 4, bytes.begin()))
+        return "image/png";
+    if (bytes.size() > 3 && std::equal(jpeg, jpeg + 3, bytes.begin()))
+        return "image/jpeg";
+    throw file_error("", place + ": found an image that is neither PNG nor JPEG, the two that glTF has");
+}
+
+} // namespace
+
+void texture_packer::read_old_images()
+{
+    if (read_)
+        return;
+    read_ = true;
+    for (int i = 0; i < images_.image_count; i++) {
+        const scene_image &old = images_.images[i];
+        std::vector<uint8_t> bytes;
+        try {
+            bytes = old.path ? file_bytes(old.path, export_max_image_bytes)
+                             : std::vector<uint8_t>(old.bytes, old.bytes + old.byte_count);
+        } catch (const file_error &) {
+            continue; // an image that is not there is like no other
+        }
+        known_images_.emplace(std::move(bytes), static_cast<size_t>(i));
+    }
+}
+
+size_t texture_packer::image(const std::vector<uint8_t> &bytes, const std::string &place)
+{
+    read_old_images();
+    const auto known = known_images_.find(bytes);
+    if (known != known_images_.end())
+        return known->second;
+    const std::string type = mime_type(bytes, place);
+    ordered_json out;
+    if (data_.has_chunk())
+        out = { { "mimeType", type }, { "bufferView", data_.add_view(bytes.data(), bytes.size(), 0) } };
+    else
+        out = { { "uri", "data:" + type + ";base64," + export_base64(bytes.data(), bytes.size()) } };
+    added_++;
+    return known_images_[bytes] = patch_.add_element("images", out.dump());
+}
+
+size_t texture_packer::entry(const std::string &array, const ordered_json &wanted)
+{
+    std::vector<json> &known = known_[array];
+    const uint32_t old = patch_.text().member(json_text::root, array);
+    if (known.empty() && old != json_text::none)
+        known = json::parse(patch_.text().value(old)).get<std::vector<json>>();
+    const json unordered = json::parse(wanted.dump());
+    for (size_t i = 0; i < known.size(); i++)
+        if (known[i] == unordered)
+            return i;
+    known.push_back(unordered);
+    return patch_.add_element(array, wanted.dump());
+}
+
+size_t texture_packer::texture(const export_preset &preset, size_t index)
+{
+    const json &extras = preset.material["extras"];
+    ordered_json out = ordered_json::parse(extras["textures"][index].dump());
+    if (out.contains("sampler"))
+        out["sampler"] =
+            entry("samplers", ordered_json::parse(extras["samplers"][out["sampler"].get<size_t>()].dump()));
+    if (out.contains("source")) {
+        const size_t source = out["source"].get<size_t>();
+        out["source"] = image(preset.images[source], preset.path + ": /extras/images/" + std::to_string(source));
+    }
+    return entry("textures", out);
+}

@@ -1,0 +1,37 @@
+/* Light that the command line brings to a scene: an environment. */
+#include <math.h>
+
+#include "cli/render.h"
+
+#define PI 3.14159265358979323846
+
+int render_light_check(const argument_syntax *syntax, const render_values *v)
+{
+    if (v->environment)
+        return COMMAND_DONE;
+    if (!isnan(v->environment_rotation_deg))
+        return arguments_wrong(syntax, "--environment-rotation: there is no --environment to turn");
+    if (!isnan(v->environment_exposure_ev))
+        return arguments_wrong(syntax, "--environment-exposure: there is no --environment to brighten");
+    return COMMAND_DONE;
+}
+
+bool render_light_begin(const render_values *v, render_light *light, preview_options *options, report *r)
+{
+    if (!v->environment)
+        return true;
+    if (!environment_map_read(v->environment, &light->map, r))
+        return false;
+    const double half_turn = isnan(v->environment_rotation_deg) ? 0.0 : v->environment_rotation_deg * PI / 360.0;
+    const double exposure_ev = isnan(v->environment_exposure_ev) ? 0.0 : v->environment_exposure_ev;
+    light->environment = (preview_environment){ &light->map,
+                                                { 0.0F, (float)sin(half_turn), 0.0F, (float)cos(half_turn) },
+                                                (float)exp2(exposure_ev) };
+    options->environment = &light->environment;
+    return true;
+}
+
+void render_light_end(render_light *light)
+{
+    environment_map_free(&light->map);
+}

@@ -1,0 +1,24 @@
+/* The smooth reflection of a light of real size, and the chance that a facet reflects it to the viewer.
+ *
+ * Kneiphof and Klein 2024, Eqs. 3, 12 and 13: the integrals of the lobe and of the facets' distribution over the light.
+ */
+#ifndef MODEL_AREA_H
+#define MODEL_AREA_H
+
+#include "light/area.h"
+#include "model/model.h"
+
+typedef struct area_value {
+    float specular[3], diffuse[3]; /* integrals of f cos theta_i over the visible part of the light */
+    float lit_probability;         /* p, in [0, 1] */
+    vec3 h;                        /* mean of the half vectors that lie in the light, by facets */
+    float cap;                     /* area of all of these half vectors, seen from above */
+} area_value;
+
+/* The light as the point of the query sees it. 0: it sees nothing of it. */
+int area_see(const model_query *q, area_light *light);
+
+/* All zero where the point sees nothing of the light. */
+void area_eval(const model_query *q, area_value *value);
+
+#endif

@@ -1,0 +1,78 @@
+/* Two estimates of the same light, weighted by the balance heuristic (Veach and Guibas 1995): where the map is bright,
+ * and where the surface reflects. */
+#include "preview/surroundings.h"
+
+#include "preview/rig.h"
+
+static shade_surroundings surroundings_of(const world *w, const environment_light *from)
+{
+    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr, (float)w->spp };
+}
+
+static void count_evaluation(const shade_point *p, const glint_value *value, ray_counts *counts)
+{
+    for (int i = 0; i < p->layer_count; ++i)
+        ++*(p->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals);
+    if (value->over_limit) {
+        ++counts->over_limit;
+        counts->most_facets = fmaxf(counts->most_facets, value->facet_count);
+    }
+}
+
+static void add_value(radiance *sum, const float throughput[3], const float incoming[3], const glint_value *value)
+{
+    for (int c = 0; c < 3; ++c) {
+        sum->discrete[c] += throughput[c] * incoming[c] * value->rgb[c];
+        sum->smooth[c] += throughput[c] * incoming[c] * value->smooth[c];
+    }
+}
+
+/* Where no other light tells of the facets, the environment does. */
+static void note_facets(direct_facets *facets, const glint_value *value)
+{
+    if (facets != NULL && facets->count == 0.0F)
+        *facets = (direct_facets){ value->facet_count, value->lit_probability };
+}
+
+void add_surroundings(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                      const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+{
+    double u[2];
+    environment_light from;
+    if (w->environment == NULL)
+        return;
+    sampler_pair(random, dimension, u);
+    if (!environment_sample(w->environment, u, &from) || !shade_faces(p, from.wi))
+        return;
+    const trace_ray ray = { .origin = hit_leave(h, h->shadow_origin),
+                            .direction = from.wi,
+                            .far = (double)INFINITY,
+                            .random = sampler_bits(random, dimension) };
+    ++counts->shadow_rays;
+    if (trace_occluded(w->trace, &ray))
+        return;
+    const shade_surroundings s = surroundings_of(w, &from);
+    glint_value value;
+    shade_eval_surroundings(p, &s, &value);
+    count_evaluation(p, &value, counts);
+    add_value(sum, throughput, from.rgb, &value);
+    note_facets(facets, &value);
+}
+
+void add_escaped_light(const world *w, const shade_point *p, const shade_direction *found, const float throughput[3],
+                       radiance *sum, ray_counts *counts)
+{
+    environment_light from = { .wi = found->wi };
+    glint_value value;
+    if (w->environment == NULL)
+        sky_radiance(&w->sky, found->wi, from.rgb);
+    else
+        environment_from(w->environment, found->wi, &from);
+    if (!(from.rgb[0] + from.rgb[1] + from.rgb[2] > 0.0F))
+        return;
+    const shade_surroundings s = surroundings_of(w, &from);
+    shade_eval_found(p, &s, found, &value);
+    if (s.solid_angle_sr > 0.0F)
+        count_evaluation(p, &value, counts);
+    add_value(sum, throughput, from.rgb, &value);
+}

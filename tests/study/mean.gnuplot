@@ -1,0 +1,13 @@
+set title 'Mean of counting over seeds / smooth, one standard error'
+set logscale x
+set xlabel 'facets under the pixel'
+set ylabel 'mean / smooth'
+set key right top
+table = folder.'/mean.csv'
+plot [0.5:2e9] [0.99:1.01] \
+    table index 0 using ($4 * 0.85):5:6 with yerrorbars linetype 1 title 'one facet in 10000 lit', \
+    table index 1 using ($4 * 0.95):5:6 with yerrorbars linetype 2 title 'one in 100', \
+    table index 2 using ($4 * 1.05):5:6 with yerrorbars linetype 3 title 'one in 10', \
+    table index 3 using ($4 * 1.18):5:6 with yerrorbars linetype 4 title 'one in 2', \
+    1.005 with lines linecolor rgb '#D55E00' dashtype 2 title 'bound', \
+    0.995 with lines linecolor rgb '#D55E00' dashtype 2 notitle
