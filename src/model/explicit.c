@@ -29,7 +29,7 @@ typedef struct facet_sum {
     vec3 h;           /* half vector */
     float chord2;     /* square of the chord from the middle of the light's cap to its rim */
     uint32_t seed;
-    const tint_palette *palette; /* NULL: all facets have the base colour */
+    const tint_palette *palette; /* NULL: all facets have the base colour, and density[0] is for all channels */
     double density[3];           /* sum of what the facets add to D, averaged over the light */
     const area_light *area;      /* of real size: then rgb is summed instead, the lobe's integral over it */
     double rgb[3];
@@ -108,7 +108,7 @@ static float lit_part(const facet_sum *s, vec3 m)
     return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
 }
 
-static void tint_facet(const facet_sum *s, int64_t x, int64_t y, float tint[3])
+static void tint_of_facet(const facet_sum *s, int64_t x, int64_t y, float tint[3])
 {
     tint[0] = tint[1] = tint[2] = 1.0F;
     if (s->palette)
@@ -122,10 +122,11 @@ static void add_facet(int64_t x, int64_t y, double share, void *user)
     const vec3 h = facet_normal(&s->distribution, o->weighting, facet_hash(o->facet_hash, x, y, s->seed));
     /* What a facet of unit projected area, or of unit area, adds to D. */
     const float weight = o->weighting == GLINT_WEIGHTING_EQUAL_AREA ? s->total_area : 1.0F / h.z;
+    float tint[3];
     if (s->area) {
-        float rgb[3], tint[3];
+        float rgb[3];
         explicit_area_facet(s->q, s->area, h, rgb);
-        tint_facet(s, x, y, tint);
+        tint_of_facet(s, x, y, tint);
         for (int c = 0; c < 3; c++)
             s->rgb[c] += share * (double)(weight * rgb[c] * tint[c]);
         return;
@@ -133,10 +134,14 @@ static void add_facet(int64_t x, int64_t y, double share, void *user)
     const float lit = lit_part(s, h);
     if (!(lit > 0.0F))
         return;
-    float tint[3];
-    tint_facet(s, x, y, tint);
+    const double added = share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit);
+    if (!s->palette) {
+        s->density[0] += added;
+        return;
+    }
+    tint_of_facet(s, x, y, tint);
     for (int c = 0; c < 3; c++)
-        s->density[c] += share * (double)(weight * 4.0F * vec3_dot(s->q->wo, h) * lit * tint[c]);
+        s->density[c] += added * (double)tint[c];
 }
 
 /* The pixel in cells, which are round in the space where elongated facets are. */
@@ -173,9 +178,9 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
     const int is_tinted = tint_is_asked(&q->material->options);
     const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
     facet_sum s = { .q = q,
+                    .palette = is_tinted ? &palette : NULL,
                     .distribution = lobe_ndf(q),
                     .seed = q->material->options.seed + q->footprint->seed,
-                    .palette = is_tinted ? &palette : NULL,
                     .area = &light };
     s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
     coverage_each(&pixel, add_facet, &s);
@@ -209,16 +214,18 @@ static void explicit_eval(const model_query *q, glint_value *value)
             /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
              * pi. */
             facet_sum s = { .q = q,
+                            .palette = is_tinted ? &palette : NULL,
                             .distribution = lobe_ndf(q),
                             .h = lobe.h,
                             .chord2 = q->solid_angle_sr / MATH_PI,
-                            .seed = q->material->options.seed + q->footprint->seed,
-                            .palette = is_tinted ? &palette : NULL };
+                            .seed = q->material->options.seed + q->footprint->seed };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
             coverage_each(&pixel, add_facet, &s);
             const float g = q->surface->discreteness;
-            for (int c = 0; c < 3; c++)
-                density[c] = (1.0F - g) * density[c] + g * (float)(s.density[c] / (double)q->solid_angle_sr);
+            for (int c = 0; c < 3; c++) {
+                const float discrete = (float)(s.density[is_tinted ? c : 0] / (double)q->solid_angle_sr);
+                density[c] = (1.0F - g) * density[c] + g * discrete;
+            }
         }
     }
     for (int c = 0; c < 3; c++) {
