@@ -128,12 +128,9 @@ static glint_material_options layer_options(const scene_material *m, glint_model
         o.coverage = g->coverage;
         o.elongation = g->elongation;
         o.density_variation = fminf(g->density_variation, 8.0F); /* glTF sets no upper bound */
-        /* The one without GLINT_FEATURE_COLOR. */
-        if (model != GLINT_MODEL_EXAMPLE) {
-            o.color_variation = g->color_variation;
-            o.color_count = g->color_count;
-            memcpy(o.colors, g->colors, sizeof o.colors);
-        }
+        o.color_variation = g->color_variation;
+        o.color_count = g->color_count;
+        memcpy(o.colors, g->colors, sizeof o.colors);
         /* A bit that no seed of a file has, so that equal seeds are not equal facets. */
         o.seed = layer == SCENE_LAYER_CLEARCOAT && has_glints(m, SCENE_LAYER_BASE) ? g->seed | 0x80000000U : g->seed;
     }
