@@ -32,7 +32,7 @@ const char *arguments_model_choice(int index)
 {
     if (index == 0)
         return "auto";
-    /* Layers, the last, are what a material has and not what it is shown with. */
+    /* The layered model is what a clear coat makes of the others: its layers have the model that is chosen. */
     const glint_model model = (glint_model)(index - 1);
     return model == GLINT_MODEL_LAYERED ? NULL : glint_model_name(model);
 }

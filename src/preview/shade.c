@@ -235,3 +235,16 @@ float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
     look_up_base_color(&l, &s->scene->materials[h.mesh->material], rgba);
     return rgba[3];
 }
+
+void shade_emission(const shader *s, const geometry *g, const trace_hit *at, float rgb[3])
+{
+    const hit_step still = { 0 };
+    hit h;
+    hit_locate(g, at, &h);
+    const lookup l = make_lookup(s, &h, &still);
+    const scene_material *const m = &s->scene->materials[h.mesh->material];
+    float rgba[4];
+    look_up(&l, &m->emissive_texture, rgba);
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = m->emissive[c] * rgba[c];
+}

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "preview/camera.h"
+#include "preview/preview.h"
 #include "preview/shade.h"
 #include "scenes.h"
 #include "traced_scene.h"
