@@ -116,7 +116,7 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
     for (int c = 0; c < 3; c++)
         value->rgb[c] = value->smooth[c] = smooth.specular[c] + smooth.diffuse[c];
     if (!q->footprint || !(q->surface->facets_per_m2 > 0.0F) || !(q->surface->discreteness > 0.0F) ||
-        !area_see(q, &light))
+        !area_see(q, &light) || !area_measure(&light))
         return;
     const coverage_pixel pixel = pixel_of(q);
     const double area = coverage_area(&pixel);

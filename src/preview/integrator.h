@@ -3,6 +3,7 @@
 #define PREVIEW_INTEGRATOR_H
 
 #include "preview/camera.h"
+#include "preview/emitters.h"
 #include "preview/environment.h"
 #include "preview/light.h"
 #include "preview/preview.h"
@@ -15,6 +16,7 @@ typedef struct world {
     const camera *camera;
     const light *lights;
     int light_count;
+    const emitters *emitters; /* NULL: nothing glows, or bounces that would find it are not asked for */
     shader shader;
     preview_sky sky;
     const environment *environment; /* in place of the sky; NULL: none */
