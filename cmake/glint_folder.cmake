@@ -4,6 +4,8 @@ add_library(glint_flags INTERFACE)
 target_compile_options(glint_flags INTERFACE
   # The same bits from every compiler and instruction set: no fused multiply-add unless the source asks for it.
   -ffp-contract=off -fno-math-errno
+  # GCC 12 makes one division of four floats out of two of one, and whatever lies beside them may be a signalling NaN.
+  -fno-tree-slp-vectorize
   -Wall -Wextra -Wshadow -Wpointer-arith -Wundef -Wvla -Wdouble-promotion
   $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes> $<$<COMPILE_LANGUAGE:C>:-Wmissing-prototypes>
   $<$<BOOL:${GLINT_WERROR}>:-Werror>

@@ -115,6 +115,12 @@ typedef struct glint_surface {
     const struct glint_coat *coat; /* layered model: the coat at this point; NULL: the material's own */
 } glint_surface;
 
+/* How facets are integrated over a light of real size. */
+typedef enum glint_area_light_method {
+    GLINT_AREA_LIGHT_FAST = 0, /* linearly transformed cosines; where alpha_x and alpha_y differ, as exact */
+    GLINT_AREA_LIGHT_EXACT     /* adaptive quadrature, error below 1 % */
+} glint_area_light_method;
+
 /* The upper layer of a layered material at one point. */
 typedef struct glint_coat {
     glint_surface surface;       /* its own coat is not looked at */
@@ -199,6 +205,7 @@ typedef struct glint_material_options {
                                           one, and the surface keeps its base colour */
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
     glint_layers layers;               /* for GLINT_MODEL_LAYERED */
+    glint_area_light_method area_light_method;
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -229,7 +236,7 @@ typedef struct glint_material_options {
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT                                            \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT, GLINT_AREA_LIGHT_FAST                     \
     }
 
 typedef struct glint_material glint_material;

@@ -169,6 +169,7 @@ static void check_values(complaint *c, const glint_material_options *o)
     check_enum(c, "distribution", (unsigned)o->distribution, GLINT_DISTRIBUTION_BECKMANN);
     check_enum(c, "fresnel", (unsigned)o->fresnel, GLINT_FRESNEL_CONDUCTOR);
     check_enum(c, "weighting", (unsigned)o->weighting, GLINT_WEIGHTING_EQUAL_PROJECTED_AREA);
+    check_enum(c, "area_light_method", (unsigned)o->area_light_method, GLINT_AREA_LIGHT_EXACT);
     check_enum(c, "facet_hash", (unsigned)o->facet_hash, GLINT_FACET_HASH_POVRAY);
     if (o->facet_limit > 100000000U)
         complain(c, GLINT_ERROR_RANGE, "facet_limit is %u, expected 0 to 100000000", o->facet_limit);

@@ -12,7 +12,7 @@ static double largest_coordinate(const vec3d *v, int count)
 {
     double largest = 0.0;
     for (int i = 0; i < count; i++)
-        largest = fmax(largest, fmax(fabs(v[i].x), fmax(fabs(v[i].y), fabs(v[i].z))));
+        largest = real_max(largest, real_max(fabs(v[i].x), real_max(fabs(v[i].y), fabs(v[i].z))));
     return largest;
 }
 
@@ -57,20 +57,23 @@ static vec3d polygon_moment(const vec3d *corner, int count)
     return sum;
 }
 
-static void finish(area_light *l)
+void area_take_corners(area_light *l, const vec3d *corner, int count)
 {
-    /* Far too small a moment is rounding: then the middle of the corners does as well. */
-    const double size = vec3d_length(l->moment);
-    if (!(size > 1e-26)) {
-        l->kind = AREA_NOTHING;
-        return;
+    l->kind = AREA_NOTHING;
+    l->corner_count = 0;
+    for (int i = 0; i < count; i++) {
+        const vec3d unit = vec3d_normalize(corner[i]);
+        if (vec3d_dot(unit, unit) > 0.5) /* not a corner at the point itself */
+            l->corner[l->corner_count++] = unit;
     }
-    l->middle = vec3d_scale(l->moment, 1.0 / size);
+    if (l->corner_count < 3)
+        return;
+    l->kind = AREA_POLYGON;
 }
 
 void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_sided)
 {
-    *l = (area_light){ .kind = AREA_NOTHING };
+    l->kind = AREA_NOTHING;
     if (count < 3 || count > AREA_MOST_CORNERS - 2)
         return;
     const double largest = largest_coordinate(corner, count);
@@ -84,20 +87,7 @@ void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_si
     if (!(fabs(height) > EDGE_ON * size) || (!two_sided && height > 0.0))
         return;
     vec3d above[AREA_MOST_CORNERS];
-    const int n = cut_at_horizon(v, count, above);
-    for (int i = 0; i < n; i++) {
-        const vec3d unit = vec3d_normalize(above[i]);
-        if (vec3d_dot(unit, unit) > 0.5) /* not a corner at the point itself */
-            l->corner[l->corner_count++] = unit;
-    }
-    if (l->corner_count < 3)
-        return;
-    l->kind = AREA_POLYGON;
-    /* A light is seen counter-clockwise from its back: turn the moment towards it. */
-    l->moment = polygon_moment(l->corner, l->corner_count);
-    if (height < 0.0)
-        l->moment = vec3d_scale(l->moment, -1.0);
-    finish(l);
+    area_take_corners(l, above, cut_at_horizon(v, count, above));
 }
 
 void area_make_rectangle(area_light *l, vec3d center, vec3d half_x, vec3d half_y, int two_sided)
@@ -112,16 +102,12 @@ void area_make_rectangle(area_light *l, vec3d center, vec3d half_x, vec3d half_y
 
 static void take_conic(area_light *l)
 {
-    if (!conic_cut(&l->cone))
-        return;
-    l->kind = AREA_CONIC;
-    l->moment = conic_moment(&l->cone);
-    finish(l);
+    l->kind = conic_cut(&l->cone) ? AREA_CONIC : AREA_NOTHING;
 }
 
 void area_make_ellipse(area_light *l, vec3d center, vec3d half_x, vec3d half_y, int two_sided)
 {
-    *l = (area_light){ .kind = AREA_NOTHING };
+    l->kind = AREA_NOTHING;
     const vec3d all[3] = { center, half_x, half_y };
     const double largest = largest_coordinate(all, 3);
     if (!(largest > 1e-30 && largest < 1e30))
@@ -132,15 +118,21 @@ void area_make_ellipse(area_light *l, vec3d center, vec3d half_x, vec3d half_y, 
     const double height = vec3d_dot(normal, c), size = vec3d_length(normal);
     if (!(fabs(height) > EDGE_ON * size) || (!two_sided && height > 0.0))
         return;
-    if (conic_make(&l->cone, c, x, y))
+    area_take_cone(l, c, x, y);
+}
+
+void area_take_cone(area_light *l, vec3d middle, vec3d half_x, vec3d half_y)
+{
+    l->kind = AREA_NOTHING;
+    if (conic_make(&l->cone, middle, half_x, half_y))
         take_conic(l);
 }
 
 void area_make_round(area_light *l, vec3d axis, double sine, double cosine)
 {
-    *l = (area_light){ .kind = AREA_NOTHING };
+    l->kind = AREA_NOTHING;
     /* Half the sphere of directions at most, a hair less so that its tangent is a number. */
-    const double least = 1e-7, c = fmax(cosine, least);
+    const double least = 1e-7, c = real_max(cosine, least);
     if (!(sine > 1e-13))
         return;
     const vec3d u = vec3d_any_normal(axis);
@@ -149,6 +141,23 @@ void area_make_round(area_light *l, vec3d axis, double sine, double cosine)
 }
 
 /* ---- queries ---- */
+
+int area_measure(area_light *l)
+{
+    if (l->kind == AREA_NOTHING)
+        return 0;
+    l->moment = l->kind == AREA_CONIC ? conic_moment(&l->cone) : polygon_moment(l->corner, l->corner_count);
+    /* Above the horizon the cosine's integral is positive, whichever way the corners run. */
+    if (l->moment.z < 0.0)
+        l->moment = vec3d_scale(l->moment, -1.0);
+    const double size = vec3d_length(l->moment);
+    if (!(size > 1e-26)) {
+        l->kind = AREA_NOTHING;
+        return 0;
+    }
+    l->middle = vec3d_scale(l->moment, 1.0 / size);
+    return 1;
+}
 
 int area_contains(const area_light *l, vec3d direction)
 {

@@ -23,8 +23,8 @@ typedef struct area_light {
     int corner_count;
     vec3d corner[AREA_MOST_CORNERS]; /* unit vectors in one sense of rotation */
     conic cone;
-    vec3d moment; /* integral of the direction over the light, sr; moment.z is that of the cosine */
-    vec3d middle; /* unit: a direction well within the light */
+    vec3d moment; /* from area_measure: integral of the direction over the light, sr; z: of the cosine */
+    vec3d middle; /* from area_measure: a unit direction well within the light */
 } area_light;
 
 /* Each leaves kind AREA_NOTHING where the point sees nothing of the light: it is edge-on, below the horizon, turned
@@ -38,7 +38,16 @@ void area_make_ellipse(area_light *light, vec3d center, vec3d half_x, vec3d half
 /* A round cone of directions around the unit vector `axis`; the sine and cosine of its angular radius, >= 0. */
 void area_make_round(area_light *light, vec3d axis, double sine, double cosine);
 
-/* Whether the light lies in this direction (any length). */
+/* From directions of any length: corners above the horizon in order, or a cone's middle and half axes, to be cut there.
+ */
+void area_take_corners(area_light *light, const vec3d *corner, int count);
+void area_take_cone(area_light *light, vec3d middle, vec3d half_x, vec3d half_y);
+
+/* Fills in moment and middle, which most of what follows needs. 0, and AREA_NOTHING: the light is too small to have
+ * them. */
+int area_measure(area_light *light);
+
+/* Whether a measured light lies in this direction (any length). */
 int area_contains(const area_light *light, vec3d direction);
 
 /* The boundary in pieces, which follow each other and close. */

@@ -92,8 +92,8 @@ int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
     double cosine = 1.0, sine = 0.0;
     if (radius > 1e-14 * half_sum && radius > 0.0) {
         const double c2 = half_difference / radius;
-        cosine = sqrt(fmax(0.0, 0.5 * (1.0 + c2)));
-        sine = (uv < 0.0 ? -1.0 : 1.0) * sqrt(fmax(0.0, 0.5 * (1.0 - c2)));
+        cosine = sqrt(real_max(0.0, 0.5 * (1.0 + c2)));
+        sine = (uv < 0.0 ? -1.0 : 1.0) * sqrt(real_max(0.0, 0.5 * (1.0 - c2)));
     }
     const double a2 = (half_sum + radius) / -negative;
     const double b2 = half_sum + radius > 0.0 ? (uu * vv - uv * uv) / (half_sum + radius) / -negative : 0.0;
@@ -124,7 +124,7 @@ int conic_cut(conic *c)
     if (c->axis_z.z < reach) {
         c->is_cut = 1;
         cosine = -c->axis_z.z / reach;
-        sine = sqrt(fmax(0.0, (1.0 - cosine) * (1.0 + cosine)));
+        sine = sqrt(real_max(0.0, (1.0 - cosine) * (1.0 + cosine)));
     }
     c->node[2][0] = c0;
     c->node[2][1] = s0;
@@ -151,7 +151,7 @@ vec3d conic_moment(const conic *c)
     if (!c->is_cut)
         return vec3d_scale(c->axis_z, REAL_PI * c->a * c->b / (root_a * root_b));
     /* p x p' = (-b cos t, -a sin t, a b), |p|^2 = root_a^2 - k sin^2 t = root_b^2 + k cos^2 t. */
-    const double k = sqrt(fmax(0.0, (c->a - c->b) * (c->a + c->b)));
+    const double k = sqrt(real_max(0.0, (c->a - c->b) * (c->a + c->b)));
     double x = 0.0, y = 0.0, turn = 0.0;
     for (int i = 0; i <= CONIC_ARCS; i += CONIC_ARCS) {
         const double sign = i > 0 ? 1.0 : -1.0, cosine = c->node[i][0], sine = c->node[i][1];

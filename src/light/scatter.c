@@ -38,7 +38,7 @@ static vec3d polygon_direction(const area_light *l, double u1, double u2)
             wanted -= area;
             continue;
         }
-        const double u = area > 0.0 ? fmin(wanted / area, 1.0) : 0.5, root = sqrt(u);
+        const double u = area > 0.0 ? real_min(wanted / area, 1.0) : 0.5, root = sqrt(u);
         const vec3d rim = vec3d_mad(t.b, vec3d_sub(t.c, t.b), u2);
         return vec3d_normalize(vec3d_mad(t.a, vec3d_sub(rim, t.a), root));
     }
@@ -74,12 +74,12 @@ static double versine_at(const conic *c, double cosine, double sine, double *tan
 static vec3d cone_direction(const conic *c, double u1, double u2)
 {
     float sine, cosine;
-    const float turn = 2.0F * (float)fmin(u1, 0.99999994);
+    const float turn = 2.0F * (float)real_min(u1, 0.99999994);
     sincos_pi(turn < 1.0F ? turn : turn - 1.0F, &sine, &cosine);
     const double sign = turn < 1.0F ? 1.0 : -1.0, co = sign * (double)cosine, si = sign * (double)sine;
     double tangent2;
     const double versine = u2 * versine_at(c, co, si, &tangent2);
-    const double across = sqrt(versine * (2.0 - versine) / fmax(tangent2, 1e-300));
+    const double across = sqrt(versine * (2.0 - versine) / real_max(tangent2, 1e-300));
     return vec3d_add(vec3d_scale(c->axis_z, 1.0 - versine),
                      vec3d_mad(vec3d_scale(c->axis_x, across * c->a * co), c->axis_y, across * c->b * si));
 }

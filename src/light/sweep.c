@@ -61,7 +61,8 @@ static sweep_node node_on(const area_light *l, const sweep_map *m, int piece, do
 {
     vec3d at, derivative;
     area_boundary(l, piece, t, &at, &derivative);
-    const double inverse = 1.0 / vec3d_length(at);
+    const double length = vec3d_length(at);
+    const double inverse = length > 1e-100 ? 1.0 / length : 0.0; /* a side through the point itself */
     const vec3d w = vec3d_scale(at, inverse);
     const vec3d dh = vec3d_scale(vec3d_mad(derivative, w, -vec3d_dot(w, derivative)), inverse);
     const vec3d h = vec3d_add(w, m->offset);
@@ -186,5 +187,5 @@ double sweep_mass(const area_light *light, const sweep_map *map, vec3d peak)
 {
     mass_sum s = { area_contains(light, peak) ? 1.0 : sweep_level(map, light->middle), 0.0 };
     sweep_each(light, map, add_mass, &s);
-    return fmin(fabs(s.sum) / (2.0 * REAL_PI), 1.0);
+    return real_min(fabs(s.sum) / (2.0 * REAL_PI), 1.0);
 }

@@ -8,6 +8,17 @@
 
 #define REAL_PI 3.14159265358979323846
 
+/* Of numbers: fmax and fmin, which look out for NaN, are calls. */
+static inline double real_max(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double real_min(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* atan x; relative error below 1e-15. Cephes, double precision (coefficients of S. Moshier's rational fit). */
 static inline double real_atan(double x)
 {
@@ -93,9 +104,10 @@ static inline double real_log(double x)
     return 2.0 * s * p + exponent * 0.69314718055994530942;
 }
 
-/* atanh x / x for |x| < 1, 1 at 0. */
+/* atanh x / x for |x| < 1, 1 at 0. An x that has been rounded to 1 or more is taken as the number before it. */
 static inline double real_atanh_over(double x)
 {
+    x = real_min(fabs(x), 0.9999999999999998);
     const double z = x * x;
     if (z < 1e-4)
         return 1.0 + z * (1.0 / 3.0 + z * (0.2 + z * (1.0 / 7.0)));

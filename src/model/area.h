@@ -18,6 +18,9 @@ typedef struct area_value {
 /* The light as the point of the query sees it. 0: it sees nothing of it. */
 int area_see(const model_query *q, area_light *light);
 
+/* The same light in the frame with these orthonormal axes, for a layer with a normal of its own. */
+glint_area_light area_turn(const glint_area_light *from, vec3 x, vec3 y, vec3 z);
+
 /* All zero where the point sees nothing of the light. */
 void area_eval(const model_query *q, area_value *value);
 

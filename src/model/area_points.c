@@ -6,6 +6,7 @@
 
 #include "light/scatter.h"
 #include "math/float_bits.h"
+#include "math/real.h"
 #include "model/area.h"
 
 #define GLINT_LANES 1
@@ -40,10 +41,12 @@ static uint32_t seed_of(const model_query *q)
     return hash_full(h ^ bits_of_float(q->wo.y));
 }
 
-static float uniform_of(uint32_t *state)
+/* A uniform in stratum i of n, below 1. */
+static float stratified(uint32_t *state, int i, int n)
 {
     *state = hash_full(*state + HASH_Z);
-    return (float)(*state >> 8) * (1.0F / 16777216.0F);
+    const float u = ((float)i + (float)(*state >> 8) * (1.0F / 16777216.0F)) / (float)n;
+    return u < 0.99999994F ? u : 0.99999994F;
 }
 
 /* f cos_i at wi, and the density with which the model draws it. */
@@ -104,21 +107,21 @@ void area_points_eval(const model_query *q, glint_value *value)
 {
     area_light light;
     *value = (glint_value){ 0 };
-    if (!area_see(q, &light))
+    if (!area_see(q, &light) || !area_measure(&light))
         return;
     const double size = scatter_density(&light, light.middle);
-    point_sum s = { q, &light, (float)fmin(1.0 / (POINTS * fmax(size, 1e-9)), 6.2), { 0.0 }, { 0.0 }, 0.0F };
+    point_sum s = { q, &light, (float)real_min(1.0 / (POINTS * real_max(size, 1e-9)), 6.2), { 0.0 }, { 0.0 }, 0.0F };
     uint32_t state = seed_of(q);
     for (int i = 0; i < POINTS; i++) {
-        const float x = ((float)(i % SIDE) + uniform_of(&state)) * (1.0F / SIDE);
-        const float y = ((float)(i / SIDE) + uniform_of(&state)) * (1.0F / SIDE);
-        add_light_point(&s, x, y);
+        const float x = stratified(&state, i % SIDE, SIDE);
+        add_light_point(&s, x, stratified(&state, i / SIDE, SIDE));
     }
     /* The lobe first, then its two dimensions in strata. */
     for (int i = 0; i < POINTS; i++) {
-        const float random[3] = { ((float)((i * 5) % POINTS) + uniform_of(&state)) * (1.0F / POINTS),
-                                  ((float)(i % SIDE) + uniform_of(&state)) * (1.0F / SIDE),
-                                  ((float)(i / SIDE) + uniform_of(&state)) * (1.0F / SIDE) };
+        float random[3];
+        random[0] = stratified(&state, i * 5 % POINTS, POINTS);
+        random[1] = stratified(&state, i % SIDE, SIDE);
+        random[2] = stratified(&state, i / SIDE, SIDE);
         add_model_direction(&s, random);
     }
     area_value whole;

@@ -5,19 +5,18 @@
 #include "model/lobe.h"
 
 /* The part of a facet's reflection that meets the light, in [0, 1]. */
-static float lit_part(const model_query *q, const area_light *light, vec3d mirrored, float cosine)
+static float lit_part(const model_query *q, const area_light *light, vec3 h, vec3d mirrored)
 {
     const float alpha = q->material->options.facet_alpha;
     if (!(alpha > 0.0F))
         return area_contains(light, mirrored) ? 1.0F : 0.0F;
-    /* The lobe is round around the mirrored view, in the plane that touches the sphere of directions there. Its solid
-     * angle alpha^2 in h has 4 h.wo times that in wi. */
-    const vec3d unit = vec3d_normalize(mirrored), x = vec3d_any_normal(unit), y = vec3d_cross(unit, x);
-    const double width = (double)alpha * 2.0 * sqrt((double)cosine);
-    const sweep_map map = { { vec3d_scale(x, 1.0 / width), vec3d_scale(y, 1.0 / width), unit },
-                            { 0.0, 0.0, 0.0 },
+    /* The lobe is one of half vectors, round in slopes around the facet's own normal. */
+    const double width = 1.0 / (double)alpha;
+    const vec3d normal = vec3d_normalize(vec3d_of(h)), x = vec3d_any_normal(normal), y = vec3d_cross(normal, x);
+    const sweep_map map = { { vec3d_scale(x, width), vec3d_scale(y, width), normal },
+                            vec3d_of(q->wo),
                             lobe_ndf(q).kind == NDF_BECKMANN };
-    return (float)sweep_mass(light, &map, unit);
+    return (float)sweep_mass(light, &map, mirrored);
 }
 
 void explicit_area_facet(const model_query *q, const area_light *light, vec3 h, float rgb[3])
@@ -29,7 +28,7 @@ void explicit_area_facet(const model_query *q, const area_light *light, vec3 h, 
     const vec3 wi = vec3_add(vec3_scale(h, 2.0F * cosine), vec3_scale(q->wo, -1.0F));
     if (!(wi.z > 0.0F))
         return;
-    const float lit = lit_part(q, light, vec3d_of(wi), cosine);
+    const float lit = lit_part(q, light, h, vec3d_of(wi));
     if (!(lit > 0.0F))
         return;
     const ndf n = lobe_ndf(q);

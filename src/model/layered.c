@@ -10,6 +10,7 @@
  * reflects: see layered_coat.c.
  */
 #include "math/uniform.h"
+#include "model/area.h"
 #include "model/layered_coat.h"
 #include "model/lobe.h"
 
@@ -138,8 +139,31 @@ static void eval_point(const point *p, glint_value *value)
 
 /* ---- contract ---- */
 
+/* Each layer sees the light of real size in its own frame. What the coat lets through hardly changes over the light: it
+ * is taken at the light's middle. */
+static void eval_area(const model_query *q, glint_value *value)
+{
+    point p;
+    area_light seen;
+    find_point(q, &p);
+    const glint_area_light turned = area_turn(q->area_light, p.x, p.y, p.z);
+    p.coat.area_light = &turned;
+    p.base_lit = p.base_seen;
+    p.coat_lit = p.coat_seen;
+    p.coat.wi = (vec3){ 0.0F, 0.0F, 1.0F };
+    if (area_see(&p.coat, &seen) && area_measure(&seen))
+        p.coat.wi = vec3d_narrow(seen.middle);
+    else if (area_see(&p.base, &seen) && area_measure(&seen))
+        p.coat.wi = to_coat(&p, vec3d_narrow(seen.middle));
+    eval_point(&p, value);
+}
+
 static void layered_eval(const model_query *q, glint_value *value)
 {
+    if (q->area_light) {
+        eval_area(q, value);
+        return;
+    }
     point p;
     find_point(q, &p);
     light_up(&p, q->wi);
@@ -191,6 +215,12 @@ static void eval_chunk(const model_query *q, size_t count, glint_value *value)
 
 static void layered_eval_many(const model_query *q, size_t count, glint_value *value)
 {
+    /* A batch has lights of one kind. */
+    if (count > 0 && q[0].area_light) {
+        for (size_t i = 0; i < count; i++)
+            eval_area(&q[i], &value[i]);
+        return;
+    }
     for (size_t i = 0; i < count; i += CHUNK)
         eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, value + i);
 }
