@@ -44,7 +44,7 @@ static void mean_over_seeds_is_smooth(void **state)
             continue;
         const double side = sqrt(1000.0 / (double)c.options.surface.facets_per_m2);
         moments value = { 0 }, smooth = { 0 };
-        for (int i = 0; i < 6000; i++) {
+        for (int i = 0; i < 2500; i++) {
             const double tilt = random_between(&random, 0.0, 0.6);
             float wo[3], wi[3];
             direction(tilt, 0.4, wo);
@@ -73,7 +73,7 @@ static void weight_times_density_is_the_value_under_the_footprint(void **state)
     {
         const int knows = samples_know_the_footprint(m);
         int drawn = 0;
-        for (int i = 0; i < 5000; i++) {
+        for (int i = 0; i < 2000; i++) {
             float wo[3], rgb[3];
             random_direction(&random, wo);
             const float u[3] = { (float)random_uniform(&random), (float)random_uniform(&random),
@@ -94,7 +94,7 @@ static void weight_times_density_is_the_value_under_the_footprint(void **state)
             for (int k = 0; k < 3; k++)
                 assert_true(fabs((double)(s.weight[k] * s.pdf) - (double)rgb[k]) <= 1e-5 * (double)rgb[k] + 1e-12);
         }
-        assert_true(drawn > 2000);
+        assert_true(drawn > 800);
     }
     contract_kept(9, "Weight times density is the value under the footprint", "footprints",
                   (const contract_exception[]){ { GLINT_MODEL_SMOOTH, "(2)" },
@@ -133,7 +133,7 @@ static void samples_have_the_density_of_the_footprint(void **state)
                                                 { GLINT_MODEL_COUNTING, "(2)" },
                                                 { GLINT_MODEL_EXPLICIT, "(2)" },
                                                 { GLINT_MODEL_EXAMPLE, "(2)" },
-                                                { GLINT_MODEL_LAYERED, "yes (5)" },
+                                                { GLINT_MODEL_LAYERED, "untested" },
                                                 { GLINT_MODEL_SMOOTH, NULL } });
 }
 
