@@ -27,6 +27,7 @@ configure_file(cmake/libglint.pc.in ${PROJECT_BINARY_DIR}/libglint.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/libglint.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(DIRECTORY materials DESTINATION ${CMAKE_INSTALL_DATADIR}/libglint FILES_MATCHING PATTERN *.gltf-material.json)
+install(FILES exporters/povray/glint.inc DESTINATION ${CMAKE_INSTALL_DATADIR}/libglint/povray)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs FILES_MATCHING PATTERN *.md PATTERN *.png)
 

@@ -78,6 +78,43 @@ typedef struct glint_export_gltf_options {
 GLINT_EXPORT_API glint_export_result glint_export_gltf(const glint_export_gltf_options *options, char *message,
                                                        size_t message_size);
 
+/* ---- POV-Ray ---- */
+
+/* How flakes are written. AUTO takes for each object the one that claims most: exact for flat objects, portable for
+ * others. The forms are described in docs/povray.md. */
+typedef enum glint_export_povray_form {
+    GLINT_EXPORT_POVRAY_AUTO = 0,
+    GLINT_EXPORT_POVRAY_PORTABLE, /* POV-Ray's own facets, on any shape */
+    GLINT_EXPORT_POVRAY_EXACT,    /* the flakes of the explicit model, on flat objects */
+    GLINT_EXPORT_POVRAY_ANALYTIC, /* the smooth model, on flat objects under one light */
+    GLINT_EXPORT_POVRAY_MESH      /* one polygon a flake */
+} glint_export_povray_form;
+
+typedef struct glint_export_povray_options {
+    size_t size;        /* set by GLINT_EXPORT_POVRAY_OPTIONS_INIT */
+    const char *input;  /* .gltf or .glb */
+    const char *output; /* a folder; made where there is none. Its files are written all or not at all. */
+    glint_export_povray_form form;
+    const char *camera; /* its name in the file, or its number from 0; NULL: the first, or one that frames the scene */
+    int width, height;  /* of the picture, [1, 65536] */
+    const glint_export_assignment *materials; /* a material's name, or "*" for all = a preset; in order */
+    size_t material_count;
+    glint_export_listener listener;
+    /* Called with the listener's user for every file, by its name in the folder, and for every object with the form
+     * that it got. NULL: not called. */
+    void (*wrote)(const char *file, void *user);
+    void (*object)(const char *name, const char *material, const char *form, void *user);
+} glint_export_povray_options;
+
+#define GLINT_EXPORT_POVRAY_OPTIONS_INIT                                                                               \
+    {                                                                                                                  \
+        sizeof(glint_export_povray_options), 0, 0, GLINT_EXPORT_POVRAY_AUTO, 0, 1280, 720, 0, 0, { 0, 0 }, 0, 0        \
+    }
+
+/* Writes glint.inc, NAME_materials.inc, NAME.pov, NAME.ini and textures, NAME after the input. */
+GLINT_EXPORT_API glint_export_result glint_export_povray(const glint_export_povray_options *options, char *message,
+                                                         size_t message_size);
+
 #ifdef __cplusplus
 }
 #endif

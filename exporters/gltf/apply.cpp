@@ -40,7 +40,7 @@ class applier
             write(index, text);
         const attribute_count added = add_missing_attributes(reading_.file, raws(), count(), patch_, data_);
         data_.finish(file_);
-        if (file_.padding != export_padding(file_) && !patch_.record().json_padding)
+        if (file_.glb && file_.padding != export_padding(file_) && !patch_.record().json_padding)
             patch_.record().json_padding = file_.padding;
         const std::string text = patch_.result();
         if (text != file_.text) {

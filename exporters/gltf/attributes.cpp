@@ -47,18 +47,26 @@ void look_for_textures(const json &value, needs &n)
     }
 }
 
+void add_glints(const json &object, needs &n)
+{
+    const json glint = object.value(json::json_pointer(std::string("/extensions/") + glint_extension), json::object());
+    if (!(glint.value("glintFactor", 0.0) > 0.0) || glint.value("glintSpace", "uv") != "uv")
+        return;
+    n.glints_on_uv = n.tangent = true;
+    n.glint_set = glint.value("glintTexCoord", 0);
+    n.uv_scale = glint.value("glintUvScale", 1.0);
+}
+
 needs needs_of(const json &material)
 {
     needs n;
     look_for_textures(material, n);
     const json extensions = material.value("extensions", json::object());
-    const json glint = extensions.value(glint_extension, json::object());
     const json anisotropy = extensions.value("KHR_materials_anisotropy", json::object());
     const json coat = extensions.value("KHR_materials_clearcoat", json::object());
-    n.glints_on_uv = glint.value("glintFactor", 0.0) > 0.0 && glint.value("glintSpace", "uv") == "uv";
-    n.glint_set = glint.value("glintTexCoord", 0);
-    n.uv_scale = glint.value("glintUvScale", 1.0);
-    n.tangent = n.glints_on_uv || material.contains("normalTexture") || coat.contains("clearcoatNormalTexture") ||
+    add_glints(coat, n);
+    add_glints(material, n);
+    n.tangent = n.tangent || material.contains("normalTexture") || coat.contains("clearcoatNormalTexture") ||
                 anisotropy.value("anisotropyStrength", 0.0) > 0.0;
     if (material.contains("normalTexture"))
         n.tangent_set = set_of(material["normalTexture"]);
@@ -145,6 +153,30 @@ std::vector<float> projected(const geometry &g, double metres_per_unit)
             uv.push_back(static_cast<float>(static_cast<double>(g.position[3 * i + (axis + k) % 3]) / metres_per_unit));
     }
     return uv;
+}
+
+// ---- NORMAL ----
+
+// Without NORMAL glTF shades each triangle flat. Where all triangles of each vertex lie in one plane that can be
+// written down; elsewhere vertices would have to be split, and the result is empty.
+std::vector<float> flat_normals(const geometry &g)
+{
+    geometry split = g;
+    geometry_make_flat_normals(split);
+    std::vector<float> normals(g.position.size(), 0.0F);
+    std::vector<bool> seen(g.vertex_count);
+    for (size_t corner = 0; corner < g.index.size(); corner++) {
+        float *mine = &normals[3 * size_t{ g.index[corner] }];
+        const float *its = &split.normal[3 * corner];
+        if (!seen[g.index[corner]])
+            std::copy_n(its, 3, mine);
+        seen[g.index[corner]] = true;
+        constexpr float rounding = 1e-6F;
+        for (size_t k = 0; k < 3; k++)
+            if (!(std::fabs(mine[k] - its[k]) <= rounding))
+                return {};
+    }
+    return std::all_of(seen.begin(), seen.end(), [](bool used) { return used; }) ? normals : std::vector<float>();
 }
 
 // ---- TANGENT ----
@@ -241,7 +273,7 @@ class adder
             note(pointer, "has no " + attribute(n.glint_set) +
                               ", which the material's glints use; they are laid out in the object's space");
         if (n.tangent && !has("TANGENT"))
-            add_tangents(g, n, pointer);
+            add_tangents(g, n, !whole.primitives[primitive].targets.empty(), pointer);
     }
 
     // One warning for all primitives that something is said about.
@@ -292,11 +324,16 @@ class adder
         }
     }
 
-    void add_tangents(geometry &g, const needs &n, const std::string &pointer)
+    void add_tangents(geometry &g, const needs &n, bool morphs, const std::string &pointer)
     {
         int set = std::min(n.tangent_set, 1);
         if (g.texcoord[set].empty())
             set = 1 - set;
+        if (g.normal.empty() && !morphs) {
+            g.normal = flat_normals(g);
+            if (!g.normal.empty())
+                add("NORMAL", g.normal, "VEC3", 3);
+        }
         if (g.normal.empty()) {
             note(pointer, "gets no TANGENT, which the material uses: it has no NORMAL");
             return;

@@ -7,7 +7,6 @@ namespace
 {
 
 constexpr uint32_t glb_magic = 0x46546C67, chunk_json = 0x4E4F534A, chunk_bin = 0x004E4942;
-constexpr size_t header_size = 12, chunk_header_size = 8;
 
 void put(std::vector<uint8_t> &out, size_t value)
 {

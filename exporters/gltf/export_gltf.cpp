@@ -7,6 +7,7 @@
 #include "exporters/export_call.h"
 #include "exporters/gltf/apply.hpp"
 #include "exporters/gltf/document.hpp"
+#include "exporters/gltf/fallback.hpp"
 #include "exporters/gltf/outside.hpp"
 #include "exporters/gltf/strip.hpp"
 #include "io/output_file.h"
@@ -30,33 +31,59 @@ void hear(const char *text, void *user)
     report_warning(&l->outer, "%s", text);
 }
 
-// What the renderer refuses is not exported either. Its warnings are for those who render.
-void check_scene(const char *path, report *r)
+// The input as the renderer reads it. What it refuses is not exported either; its warnings are for those who render.
+class rendered
 {
-    report quiet = {};
-    scene s = {};
-    const bool readable = scene_file_read(path, nullptr, &s, &quiet);
-    scene_free(&s);
-    if (!readable) {
+  public:
+    rendered(const char *path, report *r)
+    {
+        report quiet = {};
+        if (scene_file_read(path, nullptr, &scene_, &quiet))
+            return;
         report_error(r, "%s", quiet.error);
         throw file_error("", quiet.error);
     }
+    ~rendered()
+    {
+        scene_free(&scene_);
+    }
+    rendered(const rendered &) = delete;
+    rendered &operator=(const rendered &) = delete;
+    const scene &get() const
+    {
+        return scene_;
+    }
+
+  private:
+    scene scene_ = {};
+};
+
+bool same_kind(const char *input, const char *output)
+{
+    return fs::path(input).extension() == fs::path(output).extension();
 }
 
-bool same_kind(const std::string &a, const std::string &b)
+// Writes a file after the renderer's reader has passed it; nothing is written for no name.
+void finish(const glint_export_gltf_options &o, const export_container &file, const std::string &output, report *r)
 {
-    return fs::path(a).extension() == fs::path(b).extension();
+    const export_reading check(o.input, file, r);
+    if (output.empty())
+        return;
+    export_copy_outside_files(check, output, r);
+    export_write_file(output, export_put_together(file), r);
 }
 
-void check_options(const glint_export_gltf_options &o)
+ordered_json bake(const glint_export_gltf_options &o, export_container file, const scene &s, report *r)
 {
-    if (o.output && !same_kind(o.input, o.output))
-        throw file_error("", std::string("the output ") + o.output + " must end as the input does");
+    const ordered_json materials = export_bake_fallback(o.input, s, file, r);
+    const std::string path = o.output ? export_fallback_path(o.output) : "";
+    finish(o, file, path, r);
+    return { { "output", o.output ? ordered_json(path) : ordered_json() }, { "materials", materials } };
 }
 
 ordered_json export_file(const glint_export_gltf_options &o, report *r)
 {
-    check_scene(o.input, r);
+    const rendered input(o.input, r);
     const std::vector<uint8_t> bytes = file_bytes(o.input, gltf_max_file_bytes);
     export_container file = export_take_apart(bytes);
     const bool stripped = o.strip && export_strip(file, o.input, r);
@@ -66,11 +93,9 @@ ordered_json export_file(const glint_export_gltf_options &o, report *r)
     const std::vector<uint8_t> result = export_put_together(file);
     summary["changed"] = result != bytes;
     summary["bytes"] = result.size();
-    const export_reading check(o.input, file, r);
-    if (o.output) {
-        export_copy_outside_files(check, o.output, r);
-        export_write_file(o.output, result, r);
-    }
+    finish(o, file, o.output ? o.output : "", r);
+    if (o.bake_fallback)
+        summary["fallback"] = bake(o, file, input.get(), r);
     return summary;
 }
 
@@ -80,11 +105,12 @@ glint_export_result glint_export_gltf(const glint_export_gltf_options *options, 
 {
     if (!options || options->size != sizeof *options || !options->input)
         return export_wrong_usage("the options need a size and an input", message, message_size);
+    if (options->output && !same_kind(options->input, options->output))
+        return export_wrong_usage("the output has to end as the input does, in .gltf or .glb", message, message_size);
     listener l = { export_report(&options->listener) };
     report r = { {}, hear, &l };
     bool done = false;
     try {
-        check_options(*options);
         ordered_json summary = export_file(*options, &r);
         summary["warnings"] = l.warnings;
         if (options->summary)

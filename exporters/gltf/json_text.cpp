@@ -130,6 +130,11 @@ std::string_view json_text::value(uint32_t n) const
     return text_.substr(nodes_[n].begin, nodes_[n].end - nodes_[n].begin);
 }
 
+std::string_view json_text::head(uint32_t n) const
+{
+    return text_.substr(nodes_[n].name_begin, nodes_[n].begin - nodes_[n].name_begin);
+}
+
 char json_text::kind(uint32_t n) const
 {
     const char first = text_[nodes_[n].begin];

@@ -48,7 +48,8 @@ class json_text
         return nodes_[n];
     }
     std::string_view value(uint32_t n) const;
-    char kind(uint32_t n) const; // its first character: { [ " t f n, or - for any number
+    std::string_view head(uint32_t n) const; // a member's name, its colon and the blanks up to its value
+    char kind(uint32_t n) const;             // its first character: { [ " t f n, or - for any number
     std::string name(uint32_t n) const;
     uint32_t member(uint32_t object, std::string_view name) const; // none where there is none
     uint32_t element(uint32_t array, size_t index) const;

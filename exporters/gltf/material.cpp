@@ -44,21 +44,20 @@ std::string object_with(const json_text &text, uint32_t object, const raw_member
     const std::string tail(old ? text.blanks_behind_last(object) : json_line_break(text.style(), level - 1));
     const std::string colon = text.style().space_after_colon ? ": " : ":";
     std::string out;
-    const auto add = [&](const std::string &name, std::string_view raw) {
-        out += (out.empty() ? "" : ",") + lead + json(name).dump() + colon;
-        out += raw;
+    const auto add = [&](std::string_view head, std::string_view raw) {
+        out.append(out.empty() ? "" : ",").append(lead).append(head).append(raw);
     };
     for (uint32_t n = old ? text.node(object).first_child : json_text::none; n != json_text::none;
          n = text.node(n).next) {
         const std::string name = text.name(n);
         if (const std::string *raw = find(set, name))
-            add(name, *raw);
+            add(text.head(n), *raw);
         else if (!drop(name))
-            add(name, text.value(n));
+            add(text.head(n), text.value(n));
     }
     for (const auto &[name, raw] : set)
         if (text.member(object, name) == json_text::none)
-            add(name, raw);
+            add(json(name).dump() + colon, raw);
     return "{" + out + (out.empty() ? "" : tail) + "}";
 }
 
@@ -158,14 +157,9 @@ void material_take_preset(material_text &m, const std::string &preset)
         inside);
 }
 
-void material_set(material_text &m, const std::string &pointer, const std::string &value)
+void material_put(material_text &m, const std::string &pointer, std::string raw)
 {
     const std::vector<std::string> tokens = tokens_of(pointer);
-    const auto extension = std::find(tokens.begin(), tokens.end(), glint_extension);
-    if (extension == tokens.end() || extension + 1 == tokens.end())
-        throw file_error("", "found the pointer " + pointer + ", expected one into " + glint_extension);
-    check_name(*(extension + 1));
-
     json_text text(m.raw, m.style, m.level);
     uint32_t n = json_text::root;
     size_t depth = 0;
@@ -177,7 +171,6 @@ void material_set(material_text &m, const std::string &pointer, const std::strin
         here = json_pointer(here, tokens[depth]);
         n = next;
     }
-    std::string raw = value_text(value);
     if (depth == tokens.size()) {
         text.replace(n, json_layout(raw, m.style, text.node(n).level));
     } else {
@@ -187,6 +180,29 @@ void material_set(material_text &m, const std::string &pointer, const std::strin
             raw = "{" + json(tokens[i]).dump() + ":" + raw + "}";
         text.add_member(n, tokens[depth], raw);
     }
+    m.raw = text.result();
+}
+
+void material_set(material_text &m, const std::string &pointer, const std::string &value)
+{
+    const std::vector<std::string> tokens = tokens_of(pointer);
+    const auto extension = std::find(tokens.begin(), tokens.end(), glint_extension);
+    if (extension == tokens.end() || extension + 1 == tokens.end())
+        throw file_error("", "found the pointer " + pointer + ", expected one into " + glint_extension);
+    check_name(*(extension + 1));
+    material_put(m, pointer, value_text(value));
+}
+
+void material_remove(material_text &m, const std::string &pointer)
+{
+    json_text text(m.raw, m.style, m.level);
+    uint32_t n = text.find(pointer);
+    if (n == json_text::none)
+        return;
+    const uint32_t parent = text.node(n).parent;
+    if (text.node(parent).child_count == 1 && text.name(parent) == "extensions")
+        n = parent;
+    text.remove({ n });
     m.raw = text.result();
 }
 

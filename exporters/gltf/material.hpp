@@ -24,6 +24,12 @@ void material_take_preset(material_text &m, const std::string &preset);
 // extension does not have.
 void material_set(material_text &m, const std::string &pointer, const std::string &value);
 
+// Sets any member to raw text; objects on the way come into being.
+void material_put(material_text &m, const std::string &pointer, std::string raw);
+
+// Takes a member out, and "extensions" with the last of them. Nothing happens where it is not there.
+void material_remove(material_text &m, const std::string &pointer);
+
 // The names of all extensions that the material's text has, at any depth.
 std::set<std::string> material_extension_names(const std::string &raw);
 

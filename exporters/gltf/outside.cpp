@@ -10,8 +10,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-void copy(const std::string &from, const fs::path &to, report *r)
+void copy(const std::string &from, const fs::path &folder, const std::string &name, report *r)
 {
+    const fs::path to = folder / name;
     std::error_code error;
     if (!fs::exists(from, error) || fs::equivalent(from, to, error))
         return;
@@ -21,7 +22,9 @@ void copy(const std::string &from, const fs::path &to, report *r)
             throw file_error("", "found another file at " + to.string() + ", where " + from + " has to be copied to");
         return;
     }
-    fs::create_directories(to.parent_path(), error);
+    // Folders of the URI, but not the one that the user named.
+    if (fs::exists(folder, error))
+        fs::create_directories(to.parent_path(), error);
     export_write_file(to.string(), bytes, r);
 }
 
@@ -47,7 +50,7 @@ void export_copy_outside_files(const export_reading &reading, const std::string 
                 continue;
             const std::string pointer = json_pointer(json_pointer("", array), i);
             const std::string from = gltf_path_of_uri(reading.file, uri, pointer + "/uri");
-            copy(from, folder / from.substr(reading.file.folder.size() + 1), r);
+            copy(from, folder, from.substr(reading.file.folder.size() + 1), r);
         }
     }
 }

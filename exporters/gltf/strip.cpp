@@ -56,13 +56,13 @@ void find_extensions(const json_text &text, uint32_t n, std::vector<uint32_t> &f
     if (text.kind(n) != '{' && text.kind(n) != '[')
         return;
     for (uint32_t child = text.node(n).first_child; child != json_text::none; child = text.node(child).next) {
-        const uint32_t extension =
-            text.name(child) == "extensions" ? text.member(child, glint_extension) : json_text::none;
+        const bool names_extensions = text.name(child) == "extensions";
+        const uint32_t extension = names_extensions ? text.member(child, glint_extension) : json_text::none;
         if (text.name(child) == "extras")
             continue;
         if (extension != json_text::none)
             found.push_back(text.node(child).child_count == 1 ? child : extension);
-        else
+        if (extension == json_text::none || text.node(child).child_count > 1)
             find_extensions(text, child, found);
     }
 }

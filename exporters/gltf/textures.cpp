@@ -37,7 +37,7 @@ void texture_packer::read_old_images()
     }
 }
 
-size_t texture_packer::image(const std::vector<uint8_t> &bytes, const std::string &place)
+size_t texture_packer::image_index(const std::vector<uint8_t> &bytes, const std::string &place)
 {
     read_old_images();
     const auto known = known_images_.find(bytes);
@@ -76,7 +76,13 @@ size_t texture_packer::texture(const export_preset &preset, size_t index)
             entry("samplers", ordered_json::parse(extras["samplers"][out["sampler"].get<size_t>()].dump()));
     if (out.contains("source")) {
         const size_t source = out["source"].get<size_t>();
-        out["source"] = image(preset.images[source], preset.path + ": /extras/images/" + std::to_string(source));
+        out["source"] = image_index(preset.images[source], preset.path + ": /extras/images/" + std::to_string(source));
     }
     return entry("textures", out);
+}
+
+size_t texture_packer::texture(const std::vector<uint8_t> &image, const ordered_json &sampler)
+{
+    const size_t sampler_index = entry("samplers", sampler);
+    return entry("textures", { { "sampler", sampler_index }, { "source", image_index(image, "the image") } });
 }

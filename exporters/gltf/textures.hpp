@@ -16,13 +16,15 @@ class texture_packer
 
     // The index that the preset's texture has in the file.
     size_t texture(const export_preset &preset, size_t index);
+    // The index of a texture with this image and sampler.
+    size_t texture(const std::vector<uint8_t> &image, const ordered_json &sampler);
     size_t added() const
     {
         return added_;
     }
 
   private:
-    size_t image(const std::vector<uint8_t> &bytes, const std::string &place);
+    size_t image_index(const std::vector<uint8_t> &bytes, const std::string &place);
     size_t entry(const std::string &array, const ordered_json &wanted);
     void read_old_images();
 

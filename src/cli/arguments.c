@@ -32,7 +32,9 @@ const char *arguments_model_choice(int index)
 {
     if (index == 0)
         return "auto";
-    return glint_model_name((glint_model)(index - 1));
+    /* The layered model is what a clear coat makes of the others: its layers have the model that is chosen. */
+    const glint_model model = (glint_model)(index - 1);
+    return model == GLINT_MODEL_LAYERED ? NULL : glint_model_name(model);
 }
 
 static int wrong(const argument_syntax *syntax, const char *format, va_list list)

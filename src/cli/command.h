@@ -16,6 +16,7 @@ int command_eval(int argc, char **argv);
 int command_example(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_export_gltf(int argc, char **argv);
+int command_export_povray(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
 int command_validate(int argc, char **argv);

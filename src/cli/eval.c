@@ -14,8 +14,17 @@
 typedef struct eval_values {
     const char *material;
     int model; /* see arguments_model_choice */
+    int layer; /* see layer_choice */
     bool json;
 } eval_values;
+
+enum { LAYER_ALL, LAYER_BASE, LAYER_CLEARCOAT };
+
+static const char *layer_choice(int index)
+{
+    static const char *const names[] = { [LAYER_ALL] = "all", [LAYER_BASE] = "base", [LAYER_CLEARCOAT] = "clearcoat" };
+    return index <= LAYER_CLEARCOAT ? names[index] : NULL;
+}
 
 static const argument_rule rules[] = {
     { .name = "material",
@@ -24,10 +33,15 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_TEXT,
       .target = offsetof(eval_values, material) },
     { .name = "model",
-      .help = "auto is what the material asks for: example, dictionary or counting",
+      .help = "of each layer; auto is what it asks for: example, dictionary or counting",
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = offsetof(eval_values, model) },
+    { .name = "layer",
+      .help = "the whole material, or one layer by itself (all)",
+      .kind = ARGUMENT_CHOICE,
+      .choice = layer_choice,
+      .target = offsetof(eval_values, layer) },
     { .name = "json",
       .help = "print an array of objects",
       .kind = ARGUMENT_FLAG,
@@ -45,6 +59,75 @@ static const argument_syntax syntax = {
     .rule_count = sizeof rules / sizeof rules[0],
 };
 
+/* One layer before its material is made. The normals are what options.example.normals points to. */
+typedef struct layer_plan {
+    glint_material_options options;
+    float *normals;
+} layer_plan;
+
+static bool plan_layer(const eval_values *values, const scene *s, const scene_material *m, scene_glint_layer layer,
+                       layer_plan *out, report *r)
+{
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    const glint_model automatic = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
+    const glint_model model = values->model == 0 ? automatic : (glint_model)(values->model - 1);
+    out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, model) : scene_coat_options(m, model);
+    if (out->options.model != GLINT_MODEL_EXAMPLE)
+        return true;
+    if (g->structure != SCENE_STRUCTURE_EXAMPLE)
+        report_warning(r,
+                       "%s: has no glintExampleTexture for the example model; 16 x 16 flat facets that follow its "
+                       "roughness stand in",
+                       values->material);
+    return example_map_open(s, g, &out->options, &out->normals, r);
+}
+
+static glint_material *create(const eval_values *values, const glint_material_options *options, report *r)
+{
+    glint_material *material = NULL;
+    char message[256] = "";
+    if (glint_material_create(options, &material, message, sizeof message) != GLINT_OK)
+        report_error(r, "%s: %s", values->material, message);
+    return material;
+}
+
+static glint_material *create_layer(const eval_values *values, const scene *s, const scene_material *m,
+                                    scene_glint_layer layer, report *r)
+{
+    layer_plan plan = { 0 };
+    glint_material *material = plan_layer(values, s, m, layer, &plan, r) ? create(values, &plan.options, r) : NULL;
+    free(plan.normals);
+    return material;
+}
+
+/* The layer that is asked for, or both, one over the other. */
+static glint_material *create_layers(const eval_values *values, const scene *s, const scene_material *m, report *r)
+{
+    const bool has_coat = m->clearcoat > 0.0F;
+    if (values->layer == LAYER_CLEARCOAT && !has_coat) {
+        report_error(r, "%s: --layer clearcoat: found no clear coat, expected a clearcoatFactor above 0",
+                     values->material);
+        return NULL;
+    }
+    if (values->layer != LAYER_ALL || !has_coat)
+        return create_layer(values, s, m, values->layer == LAYER_CLEARCOAT ? SCENE_LAYER_CLEARCOAT : SCENE_LAYER_BASE,
+                            r);
+    layer_plan base = { 0 }, coat = { 0 };
+    glint_material *material = NULL;
+    if (plan_layer(values, s, m, SCENE_LAYER_BASE, &base, r) &&
+        plan_layer(values, s, m, SCENE_LAYER_CLEARCOAT, &coat, r)) {
+        glint_material_options both = GLINT_MATERIAL_OPTIONS_INIT;
+        both.model = GLINT_MODEL_LAYERED;
+        both.layers.base = &base.options;
+        both.layers.coat = &coat.options;
+        both.layers.coat_weight = m->clearcoat;
+        material = create(values, &both, r);
+    }
+    free(base.normals);
+    free(coat.normals);
+    return material;
+}
+
 static glint_material *open_material(const eval_values *values, report *r)
 {
     scene s = { 0 };
@@ -53,23 +136,7 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    const glint_model model = values->model == 0 ? scene_model_of(&m.glint) : (glint_model)(values->model - 1);
-    glint_material_options options = scene_base_options(&m, model);
-    float *normals = NULL;
-    if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)
-        report_warning(r, "%s: the glints are in the clear coat, and eval answers for the base layer",
-                       values->material);
-    if (options.model == GLINT_MODEL_EXAMPLE && m.glint.structure != SCENE_STRUCTURE_EXAMPLE)
-        report_warning(r,
-                       "%s: has no glintExampleTexture for the example model; 16 x 16 flat facets that follow its "
-                       "roughness stand in",
-                       values->material);
-    glint_material *material = NULL;
-    char message[256] = "";
-    if ((options.model != GLINT_MODEL_EXAMPLE || example_map_open(&s, &m.glint, &options, &normals, r)) &&
-        glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
-        report_error(r, "%s: %s", values->material, message);
-    free(normals);
+    glint_material *material = create_layers(values, &s, &m, r);
     free(m.name);
     scene_free(&s);
     return material;

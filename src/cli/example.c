@@ -13,7 +13,7 @@
 typedef struct example_values {
     const char *output;
     int size, bits; /* indices of choices */
-    double slope, feature, aspect;
+    double slope, feature, aspect, facet_roughness;
     int64_t count, seed;
     bool json;
 } example_values;
@@ -89,6 +89,13 @@ static const argument_rule rules[] = {
       .min = 0,
       .max = 4294967295.0,
       .target = offsetof(example_values, seed) },
+    { .name = "facet-roughness",
+      .value = "R",
+      .help = "glintFacetRoughness of the material, for the roughness that is printed",
+      .kind = ARGUMENT_NUMBER,
+      .min = 0,
+      .max = 1,
+      .target = offsetof(example_values, facet_roughness) },
     { .name = "json",
       .help = "print one JSON document",
       .kind = ARGUMENT_FLAG,
@@ -124,14 +131,14 @@ static int refuse_kind(const char *name)
     return arguments_wrong(&syntax, "unknown kind '%s'; see --help", name);
 }
 
-/* The roughness and anisotropy of glTF whose lobe has the slopes of a map: what viewers without the model shall show.
- * A lobe of roughness alpha has slopes of variance alpha^2 / 2 on each axis. */
+/* The roughness and anisotropy of glTF whose lobe has the slopes of a map and of its facets: what viewers without the
+ * model shall show. A lobe of roughness alpha has slopes of variance alpha^2 / 2 on each axis. */
 typedef struct fallback {
     double slope[2]; /* root mean square along u and v */
     double roughness, anisotropy, rotation_rad;
 } fallback;
 
-static fallback fallback_of(const float *normals, int size)
+static fallback fallback_of(const float *normals, int size, double facet_roughness)
 {
     double square[2] = { 0.0, 0.0 };
     for (int i = 0; i < size * size; ++i)
@@ -139,8 +146,9 @@ static fallback fallback_of(const float *normals, int size)
             const double slope = (double)normals[3 * i + k] / (double)normals[3 * i + 2];
             square[k] += slope * slope / (double)(size * size);
         }
-    const double low = fmin(sqrt(2.0 * fmin(square[0], square[1])), 1.0);
-    const double high = fmin(sqrt(2.0 * fmax(square[0], square[1])), 1.0);
+    const double facet_alpha = facet_roughness * facet_roughness;
+    const double low = fmin(sqrt(2.0 * fmin(square[0], square[1]) + facet_alpha * facet_alpha), 1.0);
+    const double high = fmin(sqrt(2.0 * fmax(square[0], square[1]) + facet_alpha * facet_alpha), 1.0);
     /* KHR_materials_anisotropy: the rougher direction has alpha + (1 - alpha) strength^2. */
     return (fallback){ .slope = { sqrt(square[0]), sqrt(square[1]) },
                        .roughness = sqrt(low),
@@ -184,7 +192,7 @@ static int write_map(const example_values *v, int kind)
     if (done && result != GLINT_OK)
         done = report_error(&m.report, "%s: %s", v->output, glint_result_text(result));
     done = done && example_map_write_png(v->output, normals, size, v->bits ? 8 : 16, &m.report);
-    const fallback f = done ? fallback_of(normals, size) : (fallback){ 0 };
+    const fallback f = done ? fallback_of(normals, size, v->facet_roughness) : (fallback){ 0 };
     free(normals);
     if (!done)
         return messages_fail(&m);
@@ -200,6 +208,7 @@ int command_example(int argc, char **argv)
                          .slope = (double)s.slope,
                          .feature = (double)s.feature_texels,
                          .aspect = (double)s.aspect,
+                         .facet_roughness = 0.05,
                          .count = s.count };
     const char *name;
     switch (arguments_parse(&syntax, argc, argv, &v, &name)) {

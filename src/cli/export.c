@@ -10,6 +10,7 @@ static const struct format {
     int (*run)(int argc, char **argv);
 } formats[] = {
     { "gltf", "a glTF 2.0 file with the extension GLINT_materials_glint", command_export_gltf },
+    { "povray", "a folder that POV-Ray 3.7 renders", command_export_povray },
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };

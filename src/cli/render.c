@@ -76,6 +76,11 @@ static const argument_rule rules[] = {
       .help = "a variant of the file (KHR_materials_variants)",
       .kind = ARGUMENT_TEXT,
       .target = AT(variant) },
+    { .name = "light-set",
+      .help = "lights in place of the file's: soft boxes, a sun in its sky ...",
+      .kind = ARGUMENT_CHOICE,
+      .choice = render_light_set,
+      .target = AT(light_set) },
     { .name = "environment",
       .value = "MAP.hdr|.exr",
       .help = "light from all around: a latitude-longitude map",
@@ -228,7 +233,7 @@ static bool read_scene(const char *path, const render_values *v, scene *s, repor
     return true;
 }
 
-static bool render_scene(const scene *s, render_record *record, const atomic_bool *cancel, image *picture, report *r)
+static bool render_scene(scene *s, render_record *record, const atomic_bool *cancel, image *picture, report *r)
 {
     const render_values *v = record->values;
     progress bar = progress_begin(stderr);
@@ -251,7 +256,7 @@ static bool render_scene(const scene *s, render_record *record, const atomic_boo
     options.cancel = cancel;
     options.transparent = v->environment_background == 1;
     render_light light = { 0 };
-    const bool done = pick_camera(s, v->camera, &options.camera, r) && render_light_begin(v, &light, &options, r) &&
+    const bool done = pick_camera(s, v->camera, &options.camera, r) && render_light_begin(v, s, &light, &options, r) &&
                       preview_render(s, &options, picture, &record->statistics, r);
     progress_end(&bar);
     render_light_end(&light);

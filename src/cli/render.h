@@ -17,6 +17,7 @@ typedef struct render_values {
     const char *environment;
     double environment_rotation_deg, environment_exposure_ev; /* NAN: not given */
     int environment_background;                               /* 0 on, 1 off */
+    int light_set;                                            /* 0: the file's own lights; then preview's sets */
     bool aov, json;
 } render_values;
 
@@ -33,12 +34,15 @@ typedef struct render_record {
 typedef struct render_light {
     environment_map map;
     preview_environment environment;
+    preview_sky sky;
 } render_light;
 
 /* Exit code of wrong usage for options that mean nothing without another. */
 int render_light_check(const argument_syntax *syntax, const render_values *v);
-/* Reads the environment and points options to it. */
-bool render_light_begin(const render_values *v, render_light *light, preview_options *options, report *r);
+/* "file", then preview's sets. */
+const char *render_light_set(int index);
+/* Reads the environment, replaces the lights of the scene, and points options to both. The camera is in the options. */
+bool render_light_begin(const render_values *v, scene *s, render_light *light, preview_options *options, report *r);
 void render_light_end(render_light *light);
 
 /* ---- render_record.c ---- */

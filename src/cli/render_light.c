@@ -1,4 +1,4 @@
-/* Light that the command line brings to a scene: an environment. */
+/* Light that the command line brings to a scene: a set of lights, an environment. */
 #include <math.h>
 
 #include "cli/render.h"
@@ -16,7 +16,25 @@ int render_light_check(const argument_syntax *syntax, const render_values *v)
     return COMMAND_DONE;
 }
 
-bool render_light_begin(const render_values *v, render_light *light, preview_options *options, report *r)
+const char *render_light_set(int index)
+{
+    return index == 0 ? "file" : preview_light_set_name(index - 1);
+}
+
+static bool use_light_set(const render_values *v, scene *s, render_light *light, preview_options *options, report *r)
+{
+    if (v->light_set == 0)
+        return true;
+    scene_camera view;
+    if (options->camera)
+        view = *options->camera;
+    else
+        view = s->camera_count > 0 ? s->cameras[0] : preview_framed_camera(s, options->width, options->height);
+    options->sky = &light->sky;
+    return preview_use_light_set(s, v->light_set - 1, &view, &light->sky, r);
+}
+
+static bool use_environment(const render_values *v, render_light *light, preview_options *options, report *r)
 {
     if (!v->environment)
         return true;
@@ -29,6 +47,11 @@ bool render_light_begin(const render_values *v, render_light *light, preview_opt
                                                 (float)exp2(exposure_ev) };
     options->environment = &light->environment;
     return true;
+}
+
+bool render_light_begin(const render_values *v, scene *s, render_light *light, preview_options *options, report *r)
+{
+    return use_environment(v, light, options, r) && use_light_set(v, s, light, options, r);
 }
 
 void render_light_end(render_light *light)

@@ -65,6 +65,7 @@ static bool write_exr(const render_record *record, const image *picture, report 
         { "glint:camera", v->camera ? v->camera : "" },
         { "glint:variant", v->variant ? v->variant : "" },
         { "glint:materials", materials },
+        { "glint:light-set", render_light_set(v->light_set) },
         { "glint:environment", v->environment ? v->environment : "" },
         { "glint:environment-rotation", rotation },
         { "glint:environment-exposure", exposure },
@@ -119,6 +120,7 @@ int render_print_document(const render_record *record, document *warnings)
     document_set_text(d, "facets", render_facets_name(v->facets));
     document_set_integer(d, "seed", (uint64_t)v->seed);
     document_set_integer(d, "bounces", (uint64_t)v->bounces);
+    document_set_text(d, "light_set", render_light_set(v->light_set));
     if (v->environment) {
         document_set_text(d, "environment", v->environment);
         document_set_number(d, "environment_rotation_deg", number_or(v->environment_rotation_deg, 0.0));

@@ -131,18 +131,28 @@ static void show_example(const scene_glint *g, document *object)
                  " of the side at most, either way");
 }
 
-void sheet_show(const scene_material *m, document *object)
+static void show_glint(const scene_glint *g, document *object)
 {
-    show_base(m, object);
-    const scene_glint *g = &m->glint;
-    if (!g->present) {
-        if (!object)
-            puts("  no glints");
-        return;
-    }
     show_numbers(object, "glint_factor", "glint factor", &g->factor, 1, " (0 smooth, 1 every facet counted)");
     show_facets(g, object);
     if (g->structure == SCENE_STRUCTURE_EXAMPLE)
         show_example(g, object);
     show_anchor(g, object);
+}
+
+void sheet_show(const scene_material *m, document *object)
+{
+    show_base(m, object);
+    if (m->glint.present)
+        show_glint(&m->glint, object);
+    if (m->coat_glint.present) {
+        document *coat = object ? document_object() : NULL;
+        if (!object)
+            puts("  in the clear coat as well:");
+        show_glint(&m->coat_glint, coat);
+        if (object)
+            document_set(object, "coat", coat);
+    }
+    if (!object && !m->glint.present && !m->coat_glint.present)
+        puts("  no glints");
 }

@@ -194,9 +194,10 @@ static void spread(const cube *from, environment_map *out)
         for (int x = 0; x < out->width; x++, to += 3) {
             double sum[3] = { 0.0, 0.0, 0.0 };
             for (int k = 0; k < CUBE_SAMPLES * CUBE_SAMPLES; k++) {
+                const int right = k % CUBE_SAMPLES, down = k / CUBE_SAMPLES;
                 double direction[3];
-                environment_map_direction((x + (k % CUBE_SAMPLES + 0.5) / CUBE_SAMPLES) / out->width,
-                                          (y + (k / CUBE_SAMPLES + 0.5) / CUBE_SAMPLES) / out->height, direction);
+                environment_map_direction((x + (right + 0.5) / CUBE_SAMPLES) / out->width,
+                                          (y + (down + 0.5) / CUBE_SAMPLES) / out->height, direction);
                 add_texel(from, direction, sum);
             }
             for (int c = 0; c < 3; c++)

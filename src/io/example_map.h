@@ -9,9 +9,9 @@
 extern "C" {
 #endif
 
-/* Decodes glintExampleTexture and fills o->example, which then points to *normals: free it once the material is made.
- * A material without that texture leaves both as they are: flat facets stand in. What is no normal map, or has a size
- * that the model does not take, is an error that names the image. */
+/* Decodes the glintExampleTexture of a layer's glints and fills o->example, which then points to *normals: free it once
+ * the material is made. Glints without that texture leave both as they are: flat facets stand in. What is no normal
+ * map, or has a size that the model does not take, is an error that names the image. */
 bool example_map_open(const scene *s, const scene_glint *g, glint_material_options *o, float **normals, report *r);
 
 /* The texture that example_map_open takes for these size * size normals (x, y, z): PNG of 8 or 16 bits, normal

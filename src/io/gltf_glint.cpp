@@ -68,3 +68,16 @@ void gltf_read_glint(gltf_file &file, const tinygltf::Value &extension, const st
         throw file_error(json_pointer(pointer, "glintStructure"),
                          "found \"example\" without glintExampleTexture, expected that texture too");
 }
+
+void gltf_read_coat_glint(gltf_file &file, const tinygltf::Value &extension, const std::string &pointer,
+                          scene_material *out)
+{
+    if (gltf_text(extension, "glintLayer", "clearcoat") != "clearcoat")
+        throw file_error(json_pointer(pointer, "glintLayer"),
+                         "found \"base\" inside KHR_materials_clearcoat, expected \"clearcoat\" or nothing");
+    if (out->glint.present && out->glint.layer == SCENE_LAYER_CLEARCOAT)
+        throw file_error(pointer, "found glints of the coat, expected none beside those of the material, whose "
+                                  "glintLayer is \"clearcoat\"");
+    gltf_read_glint(file, extension, pointer, &out->coat_glint);
+    out->coat_glint.layer = SCENE_LAYER_CLEARCOAT;
+}

@@ -151,6 +151,19 @@ void convert_specular_glossiness(material_reader &r)
                                   : "is converted to metallic-roughness");
 }
 
+// The material's own, of the layer that it names, and those of the coat, which KHR_materials_clearcoat holds.
+void read_glints(material_reader &r)
+{
+    constexpr const char *name = "GLINT_materials_glint", *coat_name = "KHR_materials_clearcoat";
+    if (const tinygltf::Value *glint = r.extension(name))
+        gltf_read_glint(r.file, *glint, r.extension_pointer(name), &r.out->glint);
+    const tinygltf::Value *coat = r.extension(coat_name);
+    if (coat && coat->Has("extensions") && coat->Get("extensions").Has(name)) {
+        const std::string pointer = r.extension_pointer(coat_name) + "/extensions/" + name;
+        gltf_read_coat_glint(r.file, coat->Get("extensions").Get(name), pointer, r.out);
+    }
+}
+
 void read_material(gltf_file &file, size_t number, scene *s)
 {
     const tinygltf::Material &in = file.model.materials[number];
@@ -165,8 +178,7 @@ void read_material(gltf_file &file, size_t number, scene *s)
     read_anisotropy(r);
     read_clearcoat(r);
     convert_specular_glossiness(r);
-    if (const tinygltf::Value *glint = r.extension("GLINT_materials_glint"))
-        gltf_read_glint(file, *glint, r.extension_pointer("GLINT_materials_glint"), &out->glint);
+    read_glints(r);
 }
 
 bool needs_default_material(const tinygltf::Model &model)

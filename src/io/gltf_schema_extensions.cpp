@@ -77,12 +77,12 @@ schema specular_schema()
              {} };
 }
 
-schema clearcoat_schema()
+schema clearcoat_schema(const schema &glint)
 {
     return { { number("clearcoatFactor", 0.0, 1.0), object("clearcoatTexture", texture_info_schema()),
                number("clearcoatRoughnessFactor", 0.0, 1.0), object("clearcoatRoughnessTexture", texture_info_schema()),
                object("clearcoatNormalTexture", normal_texture_schema()) },
-             {} };
+             { { "GLINT_materials_glint", &glint } } };
 }
 
 schema specular_glossiness_schema()
@@ -163,7 +163,7 @@ const std::vector<extension> &primitive_extensions()
 
 const std::vector<extension> &material_extensions()
 {
-    static const schema specular = specular_schema(), clearcoat = clearcoat_schema(), glint = glint_schema(),
+    static const schema glint = glint_schema(), specular = specular_schema(), clearcoat = clearcoat_schema(glint),
                         specular_glossiness = specular_glossiness_schema();
     static const schema ior = { { number("ior", 0.0, infinity) }, {} };
     static const schema anisotropy = { { number("anisotropyStrength", 0.0, 1.0),

@@ -1,33 +1,56 @@
 // Rules for GLINT_materials_glint that need the meshes: what attributes a material uses, and how many facets fit.
 #include <cmath>
+#include <cstdio>
 #include <set>
+#include <vector>
 
 #include "io/gltf_validate.hpp"
+#include "io/scene_bounds.h"
 
 namespace
 {
 
 // The picture that a density is judged by: the whole scene across the width of 4K.
 constexpr double picture_width = 3840.0;
-// An eighth of a bit more contrast than eight bits show.
+// One step of eight bits.
 constexpr double least_contrast = 1.0 / 255.0;
 constexpr double sun_sr = 6.8e-5; // solid angle of the sun
+
+std::string text_of(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
 
 const json &attributes_of(const json &root, const std::string &mesh)
 {
     return root.at(json::json_pointer("/" + mesh)).at("attributes");
 }
 
-std::string material_pointer(int material)
+// The glints of one layer and where they stand in the file.
+struct layer {
+    const scene_glint &glint;
+    std::string pointer;
+};
+
+std::vector<layer> layers_of(const scene &s, int material)
 {
-    return "/materials/" + std::to_string(material) + "/extensions/GLINT_materials_glint";
+    const scene_material &m = s.materials[material];
+    const std::string start = "/materials/" + std::to_string(material), end = "/extensions/GLINT_materials_glint";
+    std::vector<layer> all;
+    if (m.glint.present && m.glint.factor > 0.0F)
+        all.push_back({ m.glint, start + end });
+    if (m.coat_glint.present && m.coat_glint.factor > 0.0F)
+        all.push_back({ m.coat_glint, start + "/extensions/KHR_materials_clearcoat" + end });
+    return all;
 }
 
 // ---- attributes ----
 
-void check_texcoords(const json &root, const scene &s, const scene_mesh &mesh, issue_list &issues)
+void check_texcoords(const json &root, const layer &l, const scene_mesh &mesh, issue_list &issues)
 {
-    const scene_glint &g = s.materials[mesh.material].glint;
+    const scene_glint &g = l.glint;
     const json &attributes = attributes_of(root, mesh.name);
     const struct {
         const scene_texture &texture;
@@ -39,47 +62,27 @@ void check_texcoords(const json &root, const scene &s, const scene_mesh &mesh, i
         const std::string set = "TEXCOORD_" + std::to_string(use.texture.texcoord);
         if (use.texture.image != SCENE_NONE && !attributes.contains(set))
             issues.add(VALIDATE_ERROR, "NO_TEXCOORD", "/" + std::string(mesh.name) + "/attributes", "no " + set,
-                       "it, for " + material_pointer(mesh.material) + "/" + use.name);
+                       "it, for " + l.pointer + "/" + use.name);
     }
     const std::string set = "TEXCOORD_" + std::to_string(g.texcoord);
     if (g.space == SCENE_SPACE_UV && !attributes.contains(set))
         issues.add(VALIDATE_WARNING, "NO_TEXCOORD", "/" + std::string(mesh.name) + "/attributes",
                    "no " + set + ", so that glints lie in the object's space",
-                   "it, for glintSpace \"uv\" of " + material_pointer(mesh.material));
+                   "it, for glintSpace \"uv\" of " + l.pointer);
 }
 
-void check_tangents(const json &root, const scene &s, const scene_mesh &mesh, issue_list &issues)
+void check_tangents(const json &root, const layer &l, const scene_material &m, const scene_mesh &mesh,
+                    issue_list &issues)
 {
-    const scene_material &m = s.materials[mesh.material];
-    const scene_glint &g = m.glint;
+    const scene_glint &g = l.glint;
     const bool directed = g.elongation > 1.0F || g.structure == SCENE_STRUCTURE_EXAMPLE || m.anisotropy > 0.0F ||
                           m.normal_texture.image != SCENE_NONE;
     if (g.space == SCENE_SPACE_UV && directed && !attributes_of(root, mesh.name).contains("TANGENT"))
         issues.add(VALIDATE_WARNING, "NO_TANGENT", "/" + std::string(mesh.name) + "/attributes", "no TANGENT",
-                   "it, for " + material_pointer(mesh.material) +
-                       ": viewers compute tangents, but not all compute the same");
+                   "it, for " + l.pointer + ": viewers compute tangents, but not all compute the same");
 }
 
 // ---- densities ----
-
-double triangle_area(const scene_mesh &mesh, const float *m, uint32_t triangle)
-{
-    double p[3][3];
-    for (int corner = 0; corner < 3; corner++) {
-        const float *v =
-            &mesh.position[3 * static_cast<size_t>(mesh.index[3 * static_cast<size_t>(triangle) + corner])];
-        for (int k = 0; k < 3; k++)
-            p[corner][k] = static_cast<double>(m[k]) * static_cast<double>(v[0]) +
-                           static_cast<double>(m[4 + k]) * static_cast<double>(v[1]) +
-                           static_cast<double>(m[8 + k]) * static_cast<double>(v[2]);
-    }
-    double n[3];
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        n[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
-    }
-    return 0.5 * std::hypot(n[0], n[1], n[2]);
-}
 
 double area_of_material(const scene &s, int material)
 {
@@ -87,7 +90,7 @@ double area_of_material(const scene &s, int material)
     for (int i = 0; i < s.instance_count; i++) {
         const scene_mesh &mesh = s.meshes[s.instances[i].mesh];
         for (uint32_t t = 0; mesh.material == material && t < mesh.triangle_count; t++)
-            area += triangle_area(mesh, s.instances[i].to_world, t);
+            area += scene_triangle_area(&s, &s.instances[i], t);
     }
     return area;
 }
@@ -102,25 +105,28 @@ double scene_size(const scene &s)
     return std::sqrt(sum);
 }
 
-void check_density(const scene &s, int material, issue_list &issues)
+void check_density(const scene &s, int material, const layer &l, issue_list &issues)
 {
     const scene_material &m = s.materials[material];
-    const double density = static_cast<double>(m.glint.density), area = area_of_material(s, material);
-    const std::string pointer = material_pointer(material) + "/glintDensity";
+    const double density = static_cast<double>(l.glint.density), area = area_of_material(s, material);
+    const std::string pointer = l.pointer + "/glintDensity";
     if (!(area > 0.0))
         return;
-    if (density * area * static_cast<double>(m.glint.coverage) < 1.0)
-        issues.add(VALIDATE_WARNING, "DENSITY_EMPTY", pointer, json(density).dump(),
-                   "at least " + json(1.0 / area).dump() + ", one facet on the " + json(area).dump() +
+    if (density * area * static_cast<double>(l.glint.coverage) < 1.0)
+        issues.add(VALIDATE_WARNING, "DENSITY_EMPTY", pointer, text_of(density),
+                   "at least " + text_of(1.0 / area) + ", one facet on the " + text_of(area) +
                        " m^2 that have the material");
     // N facets a pixel, each lit with p, vary by sqrt((1 - p) / (N p)) around their mean.
-    const double pixel = scene_size(s) / picture_width, alpha = static_cast<double>(m.roughness * m.roughness);
+    const double pixel = scene_size(s) / picture_width,
+                 roughness =
+                     static_cast<double>(l.glint.layer == SCENE_LAYER_BASE ? m.roughness : m.clearcoat_roughness);
+    const double alpha = roughness * roughness;
     const double lit = std::min(1.0, sun_sr / (4.0 * 3.14159265358979323846 * alpha * alpha + 1e-12));
     const double contrast = std::sqrt((1.0 - lit) / (density * pixel * pixel * lit));
     if (contrast < least_contrast)
-        issues.add(VALIDATE_WARNING, "DENSITY_UNRESOLVED", pointer, json(density).dump(),
+        issues.add(VALIDATE_WARNING, "DENSITY_UNRESOLVED", pointer, text_of(density),
                    "fewer: where the scene fills a picture of 3840 pixels under the sun, pixels differ by " +
-                       json(contrast).dump() + " of their mean, less than eight bits show");
+                       text_of(contrast) + " of their mean, less than eight bits show");
 }
 
 } // namespace
@@ -129,13 +135,14 @@ void validate_on_meshes(const json &root, const scene &s, issue_list &issues)
 {
     std::set<int> used;
     for (int i = 0; i < s.mesh_count; i++) {
-        const scene_glint &g = s.materials[s.meshes[i].material].glint;
-        if (!g.present || !(g.factor > 0.0F))
-            continue;
-        check_texcoords(root, s, s.meshes[i], issues);
-        check_tangents(root, s, s.meshes[i], issues);
-        used.insert(s.meshes[i].material);
+        const scene_mesh &mesh = s.meshes[i];
+        for (const layer &l : layers_of(s, mesh.material)) {
+            check_texcoords(root, l, mesh, issues);
+            check_tangents(root, l, s.materials[mesh.material], mesh, issues);
+        }
+        used.insert(mesh.material);
     }
     for (const int material : used)
-        check_density(s, material, issues);
+        for (const layer &l : layers_of(s, material))
+            check_density(s, material, l, issues);
 }

@@ -80,3 +80,24 @@ void scene_compute_bounds(scene *s)
         s->bounds_max[k] = s->instance_count > 0 ? world.high[k] : -1.0F;
     }
 }
+
+/* An edge of a triangle in the world; in double, so that small triangles far from the origin keep their area. */
+static void world_edge(const scene_mesh *mesh, const float *m, const uint32_t *corners, int which, double edge[3])
+{
+    const float *from = &mesh->position[3 * (size_t)corners[0]], *to = &mesh->position[3 * (size_t)corners[which]];
+    for (int k = 0; k < 3; k++) {
+        edge[k] = 0.0;
+        for (int j = 0; j < 3; j++)
+            edge[k] += (double)m[4 * j + k] * ((double)to[j] - (double)from[j]);
+    }
+}
+
+double scene_triangle_area(const scene *s, const scene_instance *instance, uint32_t triangle)
+{
+    const scene_mesh *mesh = &s->meshes[instance->mesh];
+    double a[3], b[3];
+    world_edge(mesh, instance->to_world, &mesh->index[3 * (size_t)triangle], 1, a);
+    world_edge(mesh, instance->to_world, &mesh->index[3 * (size_t)triangle], 2, b);
+    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    return 0.5 * sqrt(x * x + y * y + z * z);
+}

@@ -13,6 +13,9 @@ extern "C" {
  * are no instances. */
 void scene_compute_bounds(scene *s);
 
+/* Area of a triangle of an instance, m^2. */
+double scene_triangle_area(const scene *s, const scene_instance *instance, uint32_t triangle);
+
 #ifdef __cplusplus
 }
 #endif

@@ -120,6 +120,8 @@ ordered_json describe_material(const scene *s, const scene_material &m)
         if (texture.image != SCENE_NONE)
             out[name] = image_of(s, texture);
     out["glint"] = m.glint.present ? describe_glint(s, m.glint) : ordered_json(nullptr);
+    if (m.coat_glint.present)
+        out["coat_glint"] = describe_glint(s, m.coat_glint);
     return out;
 }
 
@@ -210,9 +212,10 @@ ordered_json describe_notes(const scene *s)
     for (int i = 0; i < s->mesh_count; i++) {
         const scene_mesh &mesh = s->meshes[i];
         const scene_material &m = s->materials[mesh.material];
-        if (m.glint.present && m.glint.space == SCENE_SPACE_UV && !mesh.texcoord[m.glint.texcoord])
-            notes.push_back(std::string(mesh.name) + ": the glints of " + m.name + " need TEXCOORD_" +
-                            std::to_string(m.glint.texcoord) + ", which the mesh has not");
+        for (const scene_glint *g : { &m.glint, &m.coat_glint })
+            if (g->present && g->space == SCENE_SPACE_UV && !mesh.texcoord[g->texcoord])
+                notes.push_back(std::string(mesh.name) + ": the glints of " + m.name + " need TEXCOORD_" +
+                                std::to_string(g->texcoord) + ", which the mesh has not");
     }
     for (int i = 0; i < s->image_count; i++)
         if (s->images[i].path && access(s->images[i].path, R_OK) != 0)
@@ -268,6 +271,8 @@ void add_list(std::string &out, const std::string &title, const ordered_json &li
         out += title + " " + item["name"].get<std::string>() + ": " + line_of(item) + "\n";
         if (item.contains("glint") && item["glint"].is_object())
             out += "  glint: " + line_of(item["glint"]) + "\n";
+        if (item.contains("coat_glint"))
+            out += "  glint in the coat: " + line_of(item["coat_glint"]) + "\n";
     }
 }
 

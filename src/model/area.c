@@ -16,13 +16,15 @@ static void find_lit(const model_query *q, const area_facets *f, area_value *val
     const double size = real_max(vec3d_length(sum), f->facets);
     if (size > 1e-100)
         value->h = vec3d_narrow(vec3d_scale(sum, 1.0 / size));
-    const double lobe = (double)(ndf_facet_solid_angle(n.kind, o->facet_alpha) * value->h.z);
-    const double wider = lobe > 0.0 && f->cap > 0.0 ? 1.0 + lobe / f->cap : 1.0;
+    /* The cap is seen from above, the lobe of a facet is not. */
+    const double solid_angle = real_min(f->cap / real_max((double)value->h.z, 1e-6), 2.0 * REAL_PI);
+    const double lit = (double)ndf_lit_solid_angle(n.kind, (float)solid_angle, o->facet_alpha);
+    const double wider = solid_angle > 1e-30 ? lit / solid_angle : 1.0;
     double p = f->projected;
     if (o->weighting == GLINT_WEIGHTING_EQUAL_AREA)
         p = f->facets / (double)(q->total_area > 0.0F ? q->total_area : ndf_total_area(&n));
     value->lit_probability = (float)real_min(p * wider, 1.0);
-    value->cap = (float)(f->cap + lobe);
+    value->cap = (float)(lit * (double)value->h.z);
 }
 
 /* ---- the base ---- */
@@ -72,8 +74,9 @@ void area_eval(const model_query *q, area_value *value)
     find_lit(q, &facets, value);
     integrate_base(q, &light, value);
     const float seen = 1.0F - clamp_to(q->area_light->hidden, 0.0F, 1.0F);
+    /* The cap stays whole: it sets the angular grid, and neighbouring samples that disagree a little on what is hidden
+     * must count the same facets. */
     value->lit_probability *= seen;
-    value->cap *= seen;
     for (int c = 0; c < 3; c++) {
         value->specular[c] = seen * q->material->options.coverage * (float)facets.specular[c];
         value->diffuse[c] *= seen;

@@ -47,7 +47,7 @@ static inline counting_pixel counting_pixel_of(const counting_points *points, si
 #define ANGULAR_LEVELS 14
 
 typedef struct angular_lattice {
-    vuint x, y;    /* h in units of 2^-16 cells of the finer level */
+    vint x, y;     /* h in units of 2^-16 cells of the finer level */
     vint level;    /* log2 of cells per unit */
     vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
 } angular_lattice;
@@ -62,8 +62,8 @@ static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
     l.level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
     const vfloat scale = exp2_i(l.level);
     l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
-    l.x = (vuint)to_int(hx * scale * 65536.0F) + 0x40000000U;
-    l.y = (vuint)to_int(hy * scale * 65536.0F) + 0x40000000U;
+    l.x = to_int(hx * scale * 65536.0F);
+    l.y = to_int(hy * scale * 65536.0F);
     return l;
 }
 
@@ -74,10 +74,12 @@ static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat 
     const vuint bits = hash_top(cell + HASH_X);
     const vmask coarse = less_i((vint)(bits >> 16), (vint)l->coarser);
     *dither = to_float((vint)(bits & 0xffffU)) * (1.0F / 65536.0F);
-    const vuint x = choose_u(coarse, l->x >> 1, l->x) + (cell & 0xffffU);
-    const vuint y = choose_u(coarse, l->y >> 1, l->y) + (cell >> 16);
+    /* Counted from h = 0, so that the coarser lattice of one level is the finer one of the next: when the cap passes a
+     * power of four, corners keep their numbers. */
+    const vint x = choose_i(coarse, l->x >> 1, l->x) + (vint)(cell & 0xffffU);
+    const vint y = choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16);
 
-    const vfloat fx = to_float((vint)(x & 0xffffU)), fy = to_float((vint)(y & 0xffffU));
+    const vfloat fx = to_float(x & 0xffff), fy = to_float(y & 0xffff);
     const vfloat gx = 65536.0F - fx;
     const vfloat scaled = cell_weight * 2.3283064e-10F; /* 2^-32 */
     const vfloat up = scaled * fy, down = scaled * (65536.0F - fy);
@@ -87,7 +89,7 @@ static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat 
     weight[3] = fx * up;
 
     const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
-    const vuint corner = (cell + (x >> 16)) * HASH_X + (y >> 16) * HASH_Y + lattice;
+    const vuint corner = (cell + (vuint)(x >> 16)) * HASH_X + (vuint)(y >> 16) * HASH_Y + lattice;
     uniform[0] = (vint)hash_top(corner);
     uniform[1] = (vint)hash_top(corner + HASH_X);
     uniform[2] = (vint)hash_top(corner + HASH_Y);

@@ -140,18 +140,26 @@ static void example_eval(const model_query *q, glint_value *value)
     const float light = light_variance(q, &lobe, r);
     const float overall = overall_density(e, slope, light);
     const float share = f.share * q->surface->discreteness;
-    float mixed = overall;
+    float mixed = overall, tint[3] = { 1.0F, 1.0F, 1.0F }, seen = 0.0F;
     /* A slope that the whole surface does not have is under no footprint. */
     if (share > 0.0F && overall > 0.0F) {
         const matrix2 l = e->lattice.from_lattice;
         const float on_lattice[2] = { l.xx * slope[0] + l.yx * slope[1], l.xy * slope[0] + l.yy * slope[1] };
         const float widened = light * 0.5F * (l.xx * l.xx + l.xy * l.xy + l.yx * l.yx + l.yy * l.yy);
         const uint32_t seed = hash_full(q->material->options.seed * HASH_Y + q->footprint->seed * HASH_X);
-        const float seen = example_density(e, &f, on_lattice, widened, seed) * fabsf(matrix2_determinant(l));
+        seen = example_density(e, &f, on_lattice, widened, seed) * fabsf(matrix2_determinant(l));
         mixed = (1.0F - share) * overall + share * seen;
+        if (seen > 0.0F && tint_is_asked(&q->material->options)) {
+            const tint_palette palette = tint_palette_of(&q->material->options);
+            example_tint(e, &f, on_lattice, widened, seed, &palette, tint);
+        }
     }
     const float smooth = facet_density(lobe.h, r, overall);
     combine(q, &lobe, masking, smooth, facet_density(lobe.h, r, mixed), value);
+    const float tinted = share * facet_density(lobe.h, r, seen);
+    for (int c = 0; c < 3; c++)
+        if (tint[c] != 1.0F)
+            value->rgb[c] = fmaxf(value->rgb[c] + lobe.reflectance[c] * tinted * (tint[c] - 1.0F), 0.0F);
     const float side = side_of(q), texels = (float)e->size / side;
     const float count = footprint_area(q->footprint) * texels * texels;
     value->facet_count = count < 1e30F ? count : 1e30F;
@@ -259,6 +267,7 @@ static example *make_seeds(struct glint_material *material)
         e->first_chain[level] = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, level);
     }
     lattice_make(&e->lattice, o);
+    e->is_flat = o->flat || !o->normals;
     example_seed(e, &material->options);
     return e;
 }
@@ -309,7 +318,7 @@ const struct model example_model = {
     .name = "example",
     .features = GLINT_FEATURE_DISCRETE | GLINT_FEATURE_GGX | GLINT_FEATURE_BECKMANN | GLINT_FEATURE_ANISOTROPIC |
                 GLINT_FEATURE_SAMPLE | GLINT_FEATURE_VARYING_SURFACE | GLINT_FEATURE_EQUAL_AREA |
-                GLINT_FEATURE_EQUAL_PROJECTED_AREA,
+                GLINT_FEATURE_EQUAL_PROJECTED_AREA | GLINT_FEATURE_COLOR,
     .setup = example_setup,
     .free = example_free,
     .eval = example_eval,

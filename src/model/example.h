@@ -43,6 +43,7 @@ typedef struct example_masking {
 /* Seeds, maps and masking of one material. */
 typedef struct example {
     uint32_t size, levels;                     /* levels - 1 is the top: one tile */
+    int is_flat;                               /* texels are flat facets */
     uint32_t first_tile[EXAMPLE_MOST_LEVELS];  /* of each level, in slopes */
     uint32_t first_chain[EXAMPLE_MOST_LEVELS]; /* of each level with maps, in the chains of tiles */
     float slope_variance;                      /* sigma_r^2 and the facets' own roughness */

@@ -62,7 +62,7 @@ static void seed_slopes(example *e, const glint_material_options *o)
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t x = i % e->size, y = i / e->size;
         example_quad *q = &e->quads[example_tile(e, 0, x / 2, y / 2)];
-        float slope[2];
+        float slope[2] = { 0.0F, 0.0F };
         if (o->example.normals)
             example_normal_slope(&o->example, i, slope);
         else

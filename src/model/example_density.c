@@ -125,7 +125,8 @@ static int is_divided(const example_view *v, node *n, gathered *sum)
     }
     const float nearest = exponent > change ? exponent - change : 0.0F;
     const float rarity = 1.0F + nearest + 0.5F * nearest * nearest; /* below exp(nearest) */
-    const int divided = change + curve_of(v, n->level) > MOST_VARIATION * rarity ||
+    /* Of a tile's facets only those that are lit show their tints: which ones, the map does not say. */
+    const int divided = example_tints_texels(v) || change + curve_of(v, n->level) > MOST_VARIATION * rarity ||
                         (n->rivals && v->norm * side * side > MOST_SHARED_MASS * rarity);
     /* A large tile's map knows better than the range of its slopes whether there is anything to look for. */
     const float density = !dark && (!divided || n->level >= LEAST_TRIED_LEVEL) ? tile_density(v, n) : 0.0F;
@@ -136,6 +137,8 @@ static int is_divided(const example_view *v, node *n, gathered *sum)
     const float mass = v->norm * exp_negative(-exponent) * side * side * share_of(owned_quarters(v, n, x, y, side));
     sum->mass += mass;
     sum->value += mass * v->slope_scale * density;
+    if (v->palette)
+        example_add_tint(v, 0, mass * v->slope_scale * density, sum);
     return 0;
 }
 
@@ -220,6 +223,7 @@ typedef struct question {
     float light_variance;
     uint32_t seed;
     extent reach;
+    const tint_palette *palette;
 } question;
 
 /* The footprint and the slope as one example sees them. */
@@ -252,6 +256,9 @@ static example_view view_of(const question *q, const instance *self)
     const float stretch = 0.5F * (l.xx * l.xx + l.xy * l.xy + l.yx * l.yx + l.yy * l.yy);
     v.slope_variance = e->slope_variance + stretch * q->light_variance;
     v.blend = slope_maps_blend(&e->tiles, v.slope_variance);
+    v.palette = q->palette;
+    if (q->palette)
+        v.tint_seed = example_tint_seed(q->f, self, q->seed);
     return v;
 }
 
@@ -286,13 +293,14 @@ static float ground_mass(const question *q, const neighbours *others, rivals all
     const extent *r = &q->reach;
     const int left = (int)floor_f(r->at[0] - r->half[0]), right = (int)floor_f(r->at[0] + r->half[0]);
     const int low = (int)floor_f(r->at[1] - r->half[1]), high = (int)floor_f(r->at[1] + r->half[1]);
-    gathered sum = { 0.0F, 0.0F };
+    gathered sum = { 0 };
     for (int j = low; j <= high; j++)
         for (int i = left; i <= right; i++) {
             const matrix2 unit = { 1.0F, 0.0F, 0.0F, 1.0F };
             const instance n = { (float)i + 0.5F, (float)j + 0.5F, { unit, unit, 0.70710678F, { 1.0F, 1.0F } } };
             example_view v = view_of(q, &n);
             v.owner = NULL;
+            v.palette = NULL;
             v.others = others;
             v.wants_value = 0;
             v.wants_mass = 1;
@@ -344,21 +352,39 @@ static int gather_scattered(const question *q, int is_narrow, int sees_ripple, g
     return wants_mass;
 }
 
+/* Sums over all that lies under the footprint, over their mass. */
+static gathered gather(const question *q)
+{
+    const covariance2 *s = &q->f->spread;
+    const float half = 0.5F * (s->xx - s->yy);
+    const float minor2 = 0.5F * (s->xx + s->yy) - sqrtf(half * half + s->xy * s->xy);
+    const float ripple = RIPPLE_SIGMA / (float)q->e->size, seam = SEAM_SIGMA / (float)q->e->size;
+    gathered sum = { 0 };
+    int wants_mass = minor2 < ripple * ripple;
+    if (q->e->lattice.is_scattered)
+        wants_mass = gather_scattered(q, minor2 < seam * seam, wants_mass, &sum);
+    else
+        gather_tiled(q, wants_mass, &sum);
+    /* What lies beyond the reach looks like the rest: 1 - exp(-3.5^2 / 2). */
+    const float mass = wants_mass ? sum.mass : 0.99781F;
+    sum.value = mass > 0.0F ? sum.value / mass : 0.0F;
+    for (int c = 0; c < 3; c++)
+        sum.tint[c] = mass > 0.0F ? sum.tint[c] / mass : 0.0F;
+    return sum;
+}
+
 float example_density(const example *e, const example_footprint *f, const float slope[2], float light_variance,
                       uint32_t seed)
 {
-    const float half = 0.5F * (f->spread.xx - f->spread.yy);
-    const float minor2 = 0.5F * (f->spread.xx + f->spread.yy) - sqrtf(half * half + f->spread.xy * f->spread.xy);
-    const float ripple = RIPPLE_SIGMA / (float)e->size, seam = SEAM_SIGMA / (float)e->size;
-    const question q = { e, f, slope, light_variance, seed, extent_of(e, f) };
-    gathered sum = { 0.0F, 0.0F };
-    int wants_mass = minor2 < ripple * ripple;
-    if (e->lattice.is_scattered)
-        wants_mass = gather_scattered(&q, minor2 < seam * seam, wants_mass, &sum);
-    else
-        gather_tiled(&q, wants_mass, &sum);
-    /* What lies beyond the reach looks like the rest: 1 - exp(-3.5^2 / 2). */
-    if (!wants_mass)
-        return sum.value / 0.99781F;
-    return sum.mass > 0.0F ? sum.value / sum.mass : 0.0F;
+    const question q = { e, f, slope, light_variance, seed, extent_of(e, f), NULL };
+    return gather(&q).value;
+}
+
+void example_tint(const example *e, const example_footprint *f, const float slope[2], float light_variance,
+                  uint32_t seed, const tint_palette *palette, float rgb[3])
+{
+    const question q = { e, f, slope, light_variance, seed, extent_of(e, f), palette };
+    const gathered sum = gather(&q);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = sum.value > 0.0F ? fmaxf(1.0F + sum.tint[c] / sum.value, 0.0F) : 1.0F;
 }

@@ -3,9 +3,14 @@
 #define MODEL_EXAMPLE_DENSITY_H
 
 #include "model/example.h"
+#include "model/tint.h"
 
 /* At the lattice slope, blurred by the light's variance in lattice slopes. */
 float example_density(const example *e, const example_footprint *f, const float slope[2], float light_variance,
                       uint32_t seed);
+
+/* The mean tint of the facets that give this density, each by what it gives; white in the mean over seeds. */
+void example_tint(const example *e, const example_footprint *f, const float slope[2], float light_variance,
+                  uint32_t seed, const tint_palette *palette, float rgb[3]);
 
 #endif

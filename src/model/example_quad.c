@@ -9,9 +9,9 @@ static float sum_of(vfloat x)
     return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/* Sum of exp(-exponent - d^T C^-1 d / 2) / (2 pi sqrt(det C)) of the slope, C = J posterior J^T + the roughness. */
-static float slope_density(const example_view *v, const example_quad *q, vfloat gx, vfloat gy, vfloat exponent,
-                           vmask near)
+/* exp(-exponent - d^T C^-1 d / 2) / (2 pi sqrt(det C)) of the slope, C = J posterior J^T + the roughness. */
+static vfloat slope_density(const example_view *v, const example_quad *q, vfloat gx, vfloat gy, vfloat exponent,
+                            vmask near)
 {
     const vfloat a = load_f(q->jacobian[0]), b = load_f(q->jacobian[1]);
     const vfloat c = load_f(q->jacobian[2]), d = load_f(q->jacobian[3]);
@@ -27,8 +27,8 @@ static float slope_density(const example_view *v, const example_quad *q, vfloat 
     const vfloat e = exponent + 0.5F * (yy * x * x - 2.0F * xy * x * y + xx * y * y) / det;
     const vmask seen = near & less(e, splat(2.0F * LAST_EXPONENT));
     if (!any(seen))
-        return 0.0F;
-    return sum_of(choose(seen, exp_negative(-e) / (2.0F * MATH_PI * sqrt_f(det)), splat(0.0F)));
+        return splat(0.0F);
+    return choose(seen, exp_negative(-e) / (2.0F * MATH_PI * sqrt_f(det)), splat(0.0F));
 }
 
 void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t owned, int is_dark, gathered *sum)
@@ -50,5 +50,10 @@ void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t o
     if (is_dark)
         return;
     const example_quad *q = &v->e->quads[example_tile(v->e, 0, x, y)];
-    sum->value += area * v->slope_scale * slope_density(v, q, gx, gy, exponent, near);
+    const vfloat density = slope_density(v, q, gx, gy, exponent, near);
+    sum->value += area * v->slope_scale * sum_of(density);
+    for (uint32_t i = 0; v->palette && i < 4; i++)
+        if (density[i] > 0.0F)
+            example_add_tint(v, (2U * y + (i >> 1)) * v->e->size + 2U * x + (i & 1U),
+                             area * v->slope_scale * density[i], sum);
 }

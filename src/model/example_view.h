@@ -4,6 +4,7 @@
 #define MODEL_EXAMPLE_VIEW_H
 
 #include "model/example.h"
+#include "model/tint.h"
 
 /* Half of the square of the reach: exponents beyond it are left out. */
 #define LAST_EXPONENT (0.5F * SLOPE_REACH * SLOPE_REACH)
@@ -40,25 +41,41 @@ uint32_t quarters_owned(const neighbours *list, const instance *self, rivals r, 
 typedef struct example_view {
     const example *e;
     const instance *self;
-    const instance *owner;    /* self; NULL for the ground, which lies below all examples */
-    const neighbours *others; /* NULL: nobody overlaps */
-    int wants_value;          /* else only its mass */
-    int wants_mass;           /* also of its dark parts */
-    float texel;              /* side of one */
-    float mean[2];            /* centre of the footprint */
-    float half[2];            /* and how far it reaches, seed and all */
-    covariance2 precision;    /* inverse of footprint and seed together */
-    float norm;               /* 1 / (2 pi sqrt(det)) of it */
-    covariance2 posterior;    /* of the place within a seed, given the footprint */
-    float slope[2];           /* what is asked for */
-    float slope_variance;     /* of the surface and the light */
-    slope_blend blend;        /* of the maps, for that variance */
-    float slope_scale;        /* density of slopes here to that on the lattice */
+    const instance *owner;       /* self; NULL for the ground, which lies below all examples */
+    const neighbours *others;    /* NULL: nobody overlaps */
+    int wants_value;             /* else only its mass */
+    int wants_mass;              /* also of its dark parts */
+    float texel;                 /* side of one */
+    float mean[2];               /* centre of the footprint */
+    float half[2];               /* and how far it reaches, seed and all */
+    covariance2 precision;       /* inverse of footprint and seed together */
+    float norm;                  /* 1 / (2 pi sqrt(det)) of it */
+    covariance2 posterior;       /* of the place within a seed, given the footprint */
+    float slope[2];              /* what is asked for */
+    float slope_variance;        /* of the surface and the light */
+    slope_blend blend;           /* of the maps, for that variance */
+    float slope_scale;           /* density of slopes here to that on the lattice */
+    const tint_palette *palette; /* NULL: all facets have the base colour */
+    uint32_t tint_seed;          /* of this example */
 } example_view;
 
 typedef struct gathered {
     float value, mass;
+    float tint[3]; /* what tints add to value */
 } gathered;
+
+/* Flat texels are facets with a tint each. Where normals vary between texels there are no facets, and the tint is the
+ * whole example's. */
+static inline int example_tints_texels(const example_view *v)
+{
+    return v->palette && v->e->is_flat;
+}
+
+/* Which tints an instance has. */
+uint32_t example_tint_seed(const example_footprint *f, const instance *self, uint32_t seed);
+
+/* Adds the tint of a texel, row by row, of what it adds to value. */
+void example_add_tint(const example_view *v, uint32_t texel, float value, gathered *sum);
 
 /* Adds the seeds of a quad whose bits are set in owned: Eq. 6. is_dark: their slopes are known to be out of reach. */
 void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t owned, int is_dark, gathered *sum);

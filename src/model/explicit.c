@@ -18,6 +18,7 @@
 #include "model/area.h"
 #include "model/explicit_area.h"
 #include "model/facet.h"
+#include "model/facet_lobe.h"
 #include "model/lobe.h"
 #include "model/tint.h"
 
@@ -34,57 +35,6 @@ typedef struct facet_sum {
     const area_light *area;      /* of real size: then rgb is summed instead, the lobe's integral over it */
     double rgb[3];
 } facet_sum;
-
-/* Mass of a lobe around the origin within a disk of radius r at distance d, both squared and in units of the lobe's
- * width. GGX is a uniform sphere in stereographic projection, so the disk is a cap of that sphere. */
-static float ggx_disk_mass(float d2, float r2)
-{
-    const float t = 1.0F + d2 - r2;
-    const float root = sqrtf(t * t + 4.0F * r2);
-    /* (1 - t / root) / 2, without the difference of nearly equal numbers. */
-    return t > 0.0F ? 2.0F * r2 / (root * (root + t)) : 0.5F * (1.0F - t / root);
-}
-
-/* exp(-x) I0(x) for x >= 0: Abramowitz and Stegun 9.8.1 and 9.8.2, error below 2e-7 in the function. */
-static float bessel_scaled(float x)
-{
-    if (x < 3.75F) {
-        const float t = x * x * (1.0F / 14.0625F);
-        float p = 0.0045813F * t + 0.0360768F;
-        p = p * t + 0.2659732F;
-        p = p * t + 1.2067492F;
-        p = p * t + 3.0899424F;
-        p = p * t + 3.5156229F;
-        return exp_negative(-x) * (p * t + 1.0F);
-    }
-    const float t = 3.75F / x;
-    float p = 0.00392377F * t - 0.01647633F;
-    p = p * t + 0.02635537F;
-    p = p * t - 0.02057706F;
-    p = p * t + 0.00916281F;
-    p = p * t - 0.00157565F;
-    p = p * t + 0.00225319F;
-    p = p * t + 0.01328592F;
-    return (p * t + 0.39894228F) / sqrtf(x);
-}
-
-/* The Gaussian lobe exp(-r^2) / pi: integral of 2 s exp(-(s - d)^2) exp(-2 s d) I0(2 s d) ds up to r. */
-static float beckmann_disk_mass(float d2, float r2)
-{
-    enum { POINTS = 32 };
-    const float d = sqrtf(d2), r = sqrtf(r2);
-    /* Nothing happens further than 5 widths from d. */
-    const float from = fmaxf(0.0F, d - 5.0F), to = fminf(r, d + 5.0F);
-    if (to <= from)
-        return 0.0F;
-    const float step = (to - from) / POINTS;
-    float sum = 0.0F;
-    for (int i = 0; i < POINTS; i++) {
-        const float s = from + ((float)i + 0.5F) * step;
-        sum += 2.0F * s * exp_negative(-(s - d) * (s - d)) * bessel_scaled(2.0F * s * d);
-    }
-    return fminf(sum * step, 1.0F);
-}
 
 /* The part of one facet's reflection that meets the light's cap. A mirror shows the light or not. The lobe of a rough
  * facet is one of half vectors, round around its normal; among them the cap is a disc of 1 / (4 h.wo) of its solid
@@ -105,7 +55,7 @@ static float lit_part(const facet_sum *s, vec3 m)
     const float scale = 1.0F / (alpha * alpha);
     const float d2 = fminf(vec3_dot(off, off) * scale, 1e12F);
     const float r2 = fminf(s->chord2 * scale / (4.0F * cosine), 1e12F);
-    return s->distribution.kind == NDF_GGX ? ggx_disk_mass(d2, r2) : beckmann_disk_mass(d2, r2);
+    return facet_lobe_disk_mass(s->distribution.kind, d2, r2);
 }
 
 static void tint_of_facet(const facet_sum *s, int64_t x, int64_t y, float tint[3])

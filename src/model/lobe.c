@@ -81,8 +81,8 @@ void lobe_eval(const model_query *q, lobe_value *value)
 
 float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
 {
-    return cap_half_vector_solid_angle(q->solid_angle_sr, value->h_dot_wi) +
-           ndf_facet_solid_angle(lobe_ndf(q).kind, q->material->options.facet_alpha);
+    return ndf_lit_solid_angle(lobe_ndf(q).kind, cap_half_vector_solid_angle(q->solid_angle_sr, value->h_dot_wi),
+                               q->material->options.facet_alpha);
 }
 
 float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr)

@@ -47,7 +47,28 @@ vec3 ndf_sample_visible(const ndf *n, vec3 wo, float u1, float u2)
                               : beckmann_sample_visible(n->alpha_x, n->alpha_y, wo, u1, u2);
 }
 
-float ndf_facet_solid_angle(ndf_kind kind, float facet_alpha)
+/* The rim's part, 0 for a point. Coefficients: fits, see ndf.h. */
+static float ggx_rim(float r, float alpha)
 {
-    return (kind == NDF_GGX ? 3.0F : 2.0F) * MATH_PI * facet_alpha * facet_alpha;
+    const float blur = alpha * (1.0F + 0.966F * alpha / (alpha + 1.538F * r));
+    return 4.93480220F * alpha * r * (r / (r + blur));
+}
+
+static float beckmann_rim(float r, float alpha)
+{
+    const float x = alpha / r;
+    /* Two Gaussians blur to a third without a rim: it is gone soon. */
+    if (!(x < 10.0F))
+        return 0.0F;
+    return 2.50662827F * alpha * r / (1.0F + x * (2.044F + x * (9.896F * x - 0.5F)));
+}
+
+float ndf_lit_solid_angle(ndf_kind kind, float half_vectors_sr, float facet_alpha)
+{
+    if (!(facet_alpha > 0.0F))
+        return half_vectors_sr;
+    const float r = sqrtf(half_vectors_sr * (1.0F / MATH_PI));
+    const float lobe = (kind == NDF_GGX ? 3.0F : 2.0F) * MATH_PI * facet_alpha * facet_alpha;
+    const float rim = kind == NDF_GGX ? ggx_rim(r, facet_alpha) : beckmann_rim(r, facet_alpha);
+    return half_vectors_sr + lobe + rim;
 }

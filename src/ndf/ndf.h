@@ -38,8 +38,12 @@ float ndf_total_area(const ndf *n);
 /* A normal with density G1(wo) D(h) max(0, wo.h) / cos(theta_o). wo unit, wo.z > 0; u1, u2 in [0, 1). */
 vec3 ndf_sample_visible(const ndf *n, vec3 wo, float u1, float u2);
 
-/* Integral of 1 / (the facet's own lobe squared): the solid angle of half vectors that a facet with this roughness
- * reflects about as bright as a mirror of that size. 3 pi alpha^2 for GGX, 2 pi alpha^2 for Beckmann. */
-float ndf_facet_solid_angle(ndf_kind kind, float facet_alpha);
+/* Solid angle of the facet normals that show a light, for rough facets: as many facets, each fully lit or not at all,
+ * would have the same mean and the same variance. half_vectors_sr, >= 0: what mirrors would show, taken as a round disk
+ * of radius r. With l, the lobe of a facet over the disk, by where the facet points, it is (integral of l)^2 / integral
+ * of l^2: the disk, the lobe's own 3 pi alpha^2 (GGX) or 2 pi alpha^2 (Beckmann), and what the blurred rim adds. The
+ * last is exact for a straight rim (alpha << r: pi^2 / 2 alpha r, sqrt(2 pi) alpha r) and for a point, and a fit
+ * between them: the whole is right to .4 %. */
+float ndf_lit_solid_angle(ndf_kind kind, float half_vectors_sr, float facet_alpha);
 
 #endif

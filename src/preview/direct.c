@@ -3,18 +3,23 @@
 
 #include <math.h>
 
+#include "preview/area_shadow.h"
+
 /* Lights that are gathered at a time. */
 #define CHUNK 16
 
 typedef struct light_query {
     light_view view;
+    shade_area area; /* where the light is one */
+    bool is_area;
     glint_value value;
 } light_query;
 
 static bool in_shadow(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
-                      uint32_t dimension)
+                      uint32_t dimension, ray_counts *counts)
 {
     double u[2];
+    ++counts->shadow_rays;
     trace_ray ray = { .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
     sampler_pair(random, dimension, u);
     light_pick(l, view, ray.origin, u, &ray.direction, &ray.far);
@@ -23,16 +28,20 @@ static bool in_shadow(const world *w, const hit *h, const light *l, const light_
 
 /* Those of a chunk of lights that light the point. */
 static int gather(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                  int first, light_query queries[CHUNK], ray_counts *counts)
+                  int first, bool thorough, light_query queries[CHUNK], ray_counts *counts)
 {
     int count = 0;
     for (int i = first; i < w->light_count && i < first + CHUNK; ++i) {
         light_query *const q = &queries[count];
-        if (!light_see(&w->lights[i], h->position, &q->view) || !shade_faces(p, q->view.wi))
+        const light *const l = &w->lights[i];
+        if (!light_see(l, h->position, &q->view))
             continue;
-        ++counts->shadow_rays;
-        if (!in_shadow(w, h, &w->lights[i], &q->view, random, dimension + (uint32_t)i))
-            ++count;
+        q->is_area = light_is_area(l);
+        const bool lit =
+            q->is_area
+                ? area_light_reaches(w, h, p, l, random, dimension + (uint32_t)i, thorough, &q->area, counts)
+                : shade_faces(p, q->view.wi) && !in_shadow(w, h, l, &q->view, random, dimension + (uint32_t)i, counts);
+        count += lit;
     }
     return count;
 }
@@ -41,7 +50,10 @@ static void evaluate(const shade_point *p, light_query *queries, int count, ray_
 {
     for (int i = 0; i < count; ++i) {
         const glint_value *const value = &queries[i].value;
-        shade_eval(p, queries[i].view.wi, queries[i].view.solid_angle_sr, &queries[i].value);
+        if (queries[i].is_area)
+            shade_eval_area(p, &queries[i].area, &queries[i].value);
+        else
+            shade_eval(p, queries[i].view.wi, queries[i].view.solid_angle_sr, &queries[i].value);
         if (value->over_limit) {
             ++counts->over_limit;
             counts->most_facets = fmaxf(counts->most_facets, value->facet_count);
@@ -57,7 +69,7 @@ void add_direct_light(const world *w, const hit *h, const shade_point *p, const 
     light_query queries[CHUNK];
     float brightest = 0.0F;
     for (int first = 0; first < w->light_count; first += CHUNK) {
-        const int count = gather(w, h, p, random, dimension, first, queries, counts);
+        const int count = gather(w, h, p, random, dimension, first, facets != NULL, queries, counts);
         evaluate(p, queries, count, counts);
         for (int i = 0; i < count; ++i) {
             const light_query *const q = &queries[i];

@@ -11,7 +11,8 @@ typedef struct direct_facets {
 } direct_facets;
 
 /* Adds throughput * (the sum over lights of E f |cos theta_i|) to *sum; dimension: the first of light_count of the
- * sampler's dimensions that are free. facets may be NULL. */
+ * sampler's dimensions that are free. facets: of the point that the camera sees, whose
+ * shadows get more care; else NULL. */
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts);
 

@@ -17,9 +17,18 @@
 #define BELOW_ONE 0x1.fffffep-1F
 
 /* What the sampler's dimensions are for. Those of the lights follow the others, up to that of the surroundings. */
-enum { DIM_PIXEL, DIM_PLACE, DIM_LOBE, DIM_DIRECTION, DIM_BLEND, DIM_LIGHTS, DIM_SURROUNDINGS = (1 << 20) - 1 };
+enum {
+    DIM_PIXEL,
+    DIM_PLACE,
+    DIM_LOBE,
+    DIM_DIRECTION,
+    DIM_BLEND,
+    DIM_LIGHTS,
+    DIM_GLOW = (1 << 20) - 2,
+    DIM_SURROUNDINGS
+};
 
-/* Every depth of a path has dimensions of its own, with room for 2^20 lights. */
+/* Every depth of a path has dimensions of its own, with room for 2^19 lights, of which each may ask for two. */
 static uint32_t dimension(int depth, uint32_t purpose)
 {
     return ((uint32_t)depth << 20) + purpose;
@@ -34,6 +43,7 @@ static float to_uniform(double u)
 typedef struct vertex {
     trace_ray ray;
     differential step;
+    trace_hit found;
     hit hit;
     hit_step hit_step;
     shade_point point;
@@ -41,12 +51,11 @@ typedef struct vertex {
 
 static bool arrive(const world *w, vertex *v, trace_blending blending, const sampler *random, int depth)
 {
-    trace_hit found;
-    if (!trace_closest(w->trace, &v->ray, blending, &found))
+    if (!trace_closest(w->trace, &v->ray, blending, &v->found))
         return false;
     double choice[2];
     sampler_pair(random, dimension(depth, DIM_PLACE), choice);
-    hit_resolve(w->geometry, &v->ray, &found, &v->hit);
+    hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
     v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     shade_prepare(&w->shader, &v->hit, &v->hit_step, v3_scale(v->ray.direction, -1.0), to_uniform(choice[0]),
                   &v->point);
@@ -92,6 +101,9 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
     vertex v = *from;
     for (int depth = 1; depth <= w->bounces || w->has_sky; ++depth) {
         shade_direction next;
+        shade_point left;
+        if (w->emitters != NULL)
+            left = v.point;
         if (!leave(w, &v, random, depth - 1, &next))
             return;
         ++counts->bounce_rays;
@@ -101,11 +113,16 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
         }
         if (depth > w->bounces)
             return;
+        const bool sampled = w->emitters != NULL && add_found_glow(w, &left, &next, &v.found, &v.hit, v.point.emission,
+                                                                   throughput, sum, counts);
         for (int c = 0; c < 3; ++c)
             throughput[c] *= next.weight[c];
         shade_widen(&v.point, differential_half_vector_variance(&v.step, &v.hit_step.normal));
-        add_light(sum, throughput, v.point.emission);
+        if (!sampled)
+            add_light(sum, throughput, v.point.emission);
         add_direct_light(w, &v.hit, &v.point, random, dimension(depth, DIM_LIGHTS), throughput, sum, NULL, counts);
+        if (depth < w->bounces)
+            add_glow(w, &v.hit, &v.point, random, dimension(depth, DIM_GLOW), throughput, sum, NULL, counts);
         add_surroundings(w, &v.hit, &v.point, random, dimension(depth, DIM_SURROUNDINGS), throughput, sum, NULL,
                          counts);
     }
@@ -121,7 +138,7 @@ static void describe_first_hit(const world *w, const vertex *v, const direct_fac
     out->normal[2] = (float)n.z;
     memcpy(out->albedo, v->point.albedo, sizeof out->albedo);
     out->depth = (float)camera_depth(w->camera, v->hit.position);
-    out->facet_count = facets->count * (float)w->spp;
+    out->facet_count = facets->count * (float)(w->footprint_side * w->footprint_side);
     out->lit_probability = facets->lit_probability;
 }
 
@@ -133,6 +150,7 @@ static radiance light_of_layer(const world *w, const vertex *v, const sampler *r
     radiance sum = { 0 };
     add_light(&sum, all, v->point.emission);
     add_direct_light(w, &v->hit, &v->point, random, dimension(0, DIM_LIGHTS), all, &sum, facets, counts);
+    add_glow(w, &v->hit, &v->point, random, dimension(0, DIM_GLOW), all, &sum, facets, counts);
     add_surroundings(w, &v->hit, &v->point, random, dimension(0, DIM_SURROUNDINGS), all, &sum, facets, counts);
     add_indirect_light(w, v, random, &sum, counts);
     return sum;
@@ -166,6 +184,33 @@ static sampler sampler_of_layer(const sampler *pixel, int layer)
     return layer == 0 ? *pixel : (sampler){ hash_combine(pixel->pixel, (uint32_t)layer), pixel->sample };
 }
 
+int preview_footprint_side(int spp)
+{
+    int side = 1;
+    while (4 * side * side <= spp)
+        side *= 2;
+    return side;
+}
+
+/* The ray goes through any point of its stratum, the footprint is the stratum itself. Around the ray's own point the
+ * footprints of a pixel's samples would overlap here and leave gaps there, and pixels would vary by up to 40 % more
+ * than the facets under them. */
+static void tile_footprints(const world *w, const double jitter[2], shade_point *point)
+{
+    double to_middle[2];
+    for (int k = 0; k < 2; ++k) {
+        const double at = jitter[k] * w->footprint_side;
+        to_middle[k] = floor(at) + 0.5 - at;
+    }
+    for (int i = 0; i < point->layer_count; ++i) {
+        glint_footprint *const f = &point->layers[i].footprint;
+        if (!point->layers[i].counts)
+            continue;
+        f->u += to_middle[0] * (double)f->dudx + to_middle[1] * (double)f->dudy;
+        f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
+    }
+}
+
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
 {
     *out = (pixel_sample){ 0 };
@@ -174,7 +219,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
     sampler_pair(&pixel, dimension(0, DIM_PIXEL), jitter);
     vertex v;
     camera_ray(w->camera, x + jitter[0], y + jitter[1], &v.ray, &v.step);
-    v.step = differential_scale(&v.step, 1.0 / sqrt((double)w->spp));
+    v.step = differential_scale(&v.step, 1.0 / w->footprint_side);
 
     float transmittance = 1.0F;
     for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {
@@ -184,6 +229,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
             add_seen_sky(w, v.ray.direction, transmittance, out);
             return;
         }
+        tile_footprints(w, jitter, &v.point);
         direct_facets facets = { 0 };
         const radiance seen = light_of_layer(w, &v, &random, &facets, counts);
         if (layer == 0)

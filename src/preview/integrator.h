@@ -3,6 +3,7 @@
 #define PREVIEW_INTEGRATOR_H
 
 #include "preview/camera.h"
+#include "preview/emitters.h"
 #include "preview/environment.h"
 #include "preview/light.h"
 #include "preview/preview.h"
@@ -15,11 +16,14 @@ typedef struct world {
     const camera *camera;
     const light *lights;
     int light_count;
+    const emitters *emitters; /* NULL: nothing glows, or bounces that would find it are not asked for */
     shader shader;
     preview_sky sky;
     const environment *environment; /* in place of the sky; NULL: none */
     bool has_sky, sky_seen;         /* seen: by the camera */
     int bounces, spp;
+    /* The samples' footprints tile a pixel, side x side of them: see preview_footprint_side. */
+    int footprint_side;
     uint32_t seed;
 } world;
 
@@ -42,6 +46,10 @@ typedef struct ray_counts {
     uint64_t over_limit; /* evaluations with more facets than the explicit model visits */
     float most_facets;   /* of those */
 } ray_counts;
+
+/* The largest power of two whose square is at most spp: so many strata along a side of the pixel hold as many samples
+ * each. */
+int preview_footprint_side(int spp);
 
 /* Sample number index of the pixel (x, y), which stands for 1/spp of it. */
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts);

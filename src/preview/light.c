@@ -1,4 +1,4 @@
-/* Punctual lights that have a size after all: the size makes soft shadows and decides how many facets are lit. */
+/* Lights have a size: it makes soft shadows and decides how many facets are lit. */
 #include "preview/light.h"
 
 /* The cap may not cover the hemisphere: a hair less than 2 pi, so that single precision stays below it too. */
@@ -17,6 +17,15 @@ static double clamp_cap(double solid_angle)
     return fmin(fmax(solid_angle, light_cap_sr(SMALLEST_ANGLE)), LARGEST_CAP);
 }
 
+/* EXT_lights_area: upright in the plane of the node's x and y, shining along -z. */
+static void set_shape(light *l, const scene_light *from, const double m[16])
+{
+    const vec3 along = v3_reject(m4_column(m, 0), l->axis);
+    const vec3 x = v3_dot(along, along) > 0.0 ? v3_normalize(along) : v3_any_tangent(l->axis);
+    l->half_x = v3_scale(x, 0.5 * (double)from->width_m);
+    l->half_y = v3_scale(v3_cross(x, l->axis), 0.5 * (double)from->height_m);
+}
+
 light light_make(const scene_light *from)
 {
     double m[16];
@@ -27,6 +36,7 @@ light light_make(const scene_light *from)
         l.intensity[c] = from->color[c] * from->intensity;
     l.range = from->range > 0.0F ? (double)from->range : (double)INFINITY;
     l.radius = (double)from->radius_m;
+    set_shape(&l, from, m);
 
     const double angle = 0.5 * fmin((double)from->angular_diameter_rad, PREVIEW_PI);
     l.cosine = cos(angle);
@@ -78,11 +88,32 @@ bool light_see(const light *l, vec3 position, light_view *out)
         return false;
     out->wi = v3_scale(towards, 1.0 / distance);
     out->distance = distance;
+    if (light_is_area(l)) {
+        out->solid_angle_sr = 0.0F;
+        return v3_dot(towards, l->axis) > 0.0 && set_irradiance(l, 1.0, out);
+    }
     /* A sphere of radius r: sin of its angular radius is r / d. Inside it, the cap is held below a hemisphere. */
     const double sine = fmin(l->radius / distance, 1.0);
     out->solid_angle_sr = (float)clamp_cap(light_cap_sr(asin(sine)));
     const double cone = l->kind == SCENE_LIGHT_SPOT ? spot_factor(l, out->wi) : 1.0;
     return set_irradiance(l, cone * range_factor(distance, l->range) / (distance * distance), out);
+}
+
+vec3 light_point(const light *l, const double u[2])
+{
+    double x = 2.0 * u[0] - 1.0, y = 2.0 * u[1] - 1.0;
+    if (l->kind == SCENE_LIGHT_DISK) {
+        const double r = sqrt(u[0]), angle = 2.0 * PREVIEW_PI * u[1];
+        x = r * cos(angle);
+        y = r * sin(angle);
+    }
+    return v3_mad(v3_mad(l->position, l->half_x, x), l->half_y, y);
+}
+
+double light_area_m2(const light *l)
+{
+    const double square = 4.0 * v3_length(l->half_x) * v3_length(l->half_y);
+    return l->kind == SCENE_LIGHT_DISK ? 0.25 * PREVIEW_PI * square : square;
 }
 
 void light_pick(const light *l, const light_view *view, vec3 position, const double u[2], vec3 *direction,

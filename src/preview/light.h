@@ -1,4 +1,4 @@
-/* The lights of KHR_lights_punctual as a point of the scene sees them: direction, irradiance and solid angle. */
+/* The lights of a scene as one of its points sees them: direction, irradiance and solid angle, or a flat shape. */
 #ifndef PREVIEW_LIGHT_H
 #define PREVIEW_LIGHT_H
 
@@ -8,9 +8,10 @@
 typedef struct light {
     scene_light_kind kind;
     vec3 position;
-    vec3 axis;                      /* unit, against the direction in which it shines */
-    float intensity[3];             /* directional: W/m^2; point and spot: W/sr; as in the file, colour multiplied in */
-    double range;                   /* metres, infinite where there is none */
+    vec3 axis;           /* unit, against the direction in which it shines */
+    vec3 half_x, half_y; /* rectangle, disk: from the middle to the edge; half_x x half_y is where it shines */
+    float intensity[3];  /* as in the file, in the unit of its kind, colour multiplied in */
+    double range;        /* metres, infinite where there is none */
     double cone_scale, cone_offset; /* spot: saturate(cos * scale + offset)^2 */
     double radius;                  /* metres: point and spot */
     double cosine;                  /* directional: of its angular radius */
@@ -22,14 +23,25 @@ light light_make(const scene_light *from);
 typedef struct light_view {
     vec3 wi;              /* unit, towards the centre of the light */
     double distance;      /* metres, infinite for a directional light */
-    float irradiance[3];  /* on a surface that faces the light; no shadow */
-    float solid_angle_sr; /* (0, 2 pi) */
+    float irradiance[3];  /* on a surface that faces the light; no shadow. Rectangle, disk: radiance */
+    float solid_angle_sr; /* (0, 2 pi); not of rectangle and disk */
 } light_view;
 
-/* False when no light comes this way: behind a spot's cone, out of range, black. */
+/* Whether it has a flat shape, which is evaluated as a whole: see area_shadow.h. */
+static inline bool light_is_area(const light *l)
+{
+    return l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
+}
+
+/* False when no light comes this way: behind a spot's cone or an area light, out of range, black. */
 bool light_see(const light *l, vec3 position, light_view *out);
 
-/* A point of the light for a shadow ray, from two uniforms in [0, 1): its unit direction and how far the ray goes. */
+/* A point of a rectangle or a disk, even over its area. */
+vec3 light_point(const light *l, const double u[2]);
+double light_area_m2(const light *l);
+
+/* A point of a round light for a shadow ray, from two uniforms in [0, 1): its unit direction and how far the ray goes.
+ */
 void light_pick(const light *l, const light_view *view, vec3 position, const double u[2], vec3 *direction,
                 double *distance);
 

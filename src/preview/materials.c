@@ -18,6 +18,10 @@ static void warn_of_unrendered(const scene *s, int index, const scene_glint *g, 
     const char *const path = s->path != NULL ? s->path : "scene";
     if (g == NULL || !(g->factor > 0.0F))
         return;
+    if ((g->color_variation > 0.0F || g->color_count > 0) && !(glint_model_features(model) & GLINT_FEATURE_COLOR))
+        report_warning(r, "%s: materials/%d (\"%s\"): %s is not rendered by the %s model; every facet has one colour",
+                       path, index, name_of(m), g->color_count > 0 ? "glintColors" : "glintColorVariation",
+                       glint_model_name(model));
     if (g->density_variation > 0.0F && model != GLINT_MODEL_DICTIONARY)
         report_warning(
             r,

@@ -24,6 +24,7 @@ typedef struct stage {
     light *lights;
     environment_map own_map; /* of the scene's image-based light */
     environment environment;
+    emitters emitters;
     world world;
 } stage;
 
@@ -105,12 +106,8 @@ static bool set_lights(stage *st, const preview_options *o, const scene_camera *
     if (st->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
     st->world.lights = st->lights;
-    for (int i = 0; i < count; ++i) {
-        if (from[i].kind == SCENE_LIGHT_RECT || from[i].kind == SCENE_LIGHT_DISK)
-            report_warning(r, "light \"%s\": area lights are not rendered", from[i].name);
-        else
-            st->lights[st->world.light_count++] = light_make(&from[i]);
-    }
+    for (int i = 0; i < count; ++i)
+        st->lights[st->world.light_count++] = light_make(&from[i]);
     for (int i = 0; i < st->environment.sun_count; ++i)
         st->lights[st->world.light_count++] = light_make(&st->environment.suns[i]);
     return true;
@@ -143,6 +140,7 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
                          .shader = { s, &st->materials, st->textures },
                          .bounces = o->bounces,
                          .spp = o->spp,
+                         .footprint_side = preview_footprint_side(o->spp),
                          .seed = o->seed };
     if (!set_environment(st, o, r))
         return false;
@@ -152,6 +150,10 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r))
         return false;
     st->world.trace = st->trace;
+    if (!emitters_make(&st->geometry, &st->emitters, r))
+        return false;
+    if (st->emitters.count > 0 && o->bounces > 0)
+        st->world.emitters = &st->emitters;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
     return true;
@@ -164,6 +166,7 @@ static void take_down(stage *st)
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
     textures_close(st->textures);
+    emitters_free(&st->emitters);
     environment_free(&st->environment);
     environment_map_free(&st->own_map);
     free(st->lights);

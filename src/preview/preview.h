@@ -83,4 +83,12 @@ scene_camera preview_framed_camera(const scene *s, int width, int height);
 /* Appends a key light, a fill and a rim, placed around the view of the first camera, to s->lights. */
 bool preview_add_lookdev_rig(scene *s, report *r);
 
+/* ---- light sets: lights that suit any file ---- */
+
+/* The name of a set ("three-point"), from 0 on; NULL behind the last. */
+const char *preview_light_set_name(int set);
+/* Puts a set in the place of the scene's lights and its image-based light: as large as what the middle of the view
+ * shows, and around it. *sky is what surrounds it, for preview_options. */
+bool preview_use_light_set(scene *s, int set, const scene_camera *view, preview_sky *sky, report *r);
+
 #endif

@@ -21,7 +21,7 @@ static const rig_light RIG[RIG_LIGHT_COUNT] = {
     { "rim", 2.60, 0.55, { 1.0F, 1.0F, 1.0F }, 1.4F, 0.02F },
 };
 
-void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])
+rig_axes rig_axes_of(const scene_camera *camera)
 {
     double m[16];
     for (int i = 0; i < 16; ++i)
@@ -32,13 +32,22 @@ void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])
         towards_camera = v3_scale(m4_column(m, 1), towards_camera.y > 0.0 ? -1.0 : 1.0);
     towards_camera = v3_normalize(v3(towards_camera.x, 0.0, towards_camera.z));
     const vec3 up = v3(0.0, 1.0, 0.0);
-    const vec3 right = v3_cross(up, towards_camera);
+    return (rig_axes){ towards_camera, v3_cross(up, towards_camera), up };
+}
 
+vec3 rig_direction(const rig_axes *axes, double azimuth, double elevation)
+{
+    const vec3 heading = v3_mad(v3_scale(axes->towards_camera, cos(azimuth)), axes->right, sin(azimuth));
+    return v3_mad(v3_scale(heading, cos(elevation)), axes->up, sin(elevation));
+}
+
+void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT])
+{
+    const rig_axes axes = rig_axes_of(camera);
     for (int i = 0; i < RIG_LIGHT_COUNT; ++i) {
         const rig_light *const from = &RIG[i];
-        const vec3 heading = v3_mad(v3_scale(towards_camera, cos(from->azimuth)), right, sin(from->azimuth));
-        const vec3 z = v3_mad(v3_scale(heading, cos(from->elevation)), up, sin(from->elevation));
-        const vec3 x = v3_normalize(v3_cross(up, z));
+        const vec3 z = rig_direction(&axes, from->azimuth, from->elevation);
+        const vec3 x = v3_normalize(v3_cross(axes.up, z));
         lights[i] = (scene_light){ .kind = SCENE_LIGHT_DIRECTIONAL,
                                    .color = { from->color[0], from->color[1], from->color[2] },
                                    .intensity = from->intensity,

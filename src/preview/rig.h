@@ -7,6 +7,14 @@
 
 #define RIG_LIGHT_COUNT 3
 
+/* How the view of a camera lies in the world, for lights that stand around it: level, but for straight views. */
+typedef struct rig_axes {
+    vec3 towards_camera, right, up;
+} rig_axes;
+rig_axes rig_axes_of(const scene_camera *camera);
+/* A direction from the subject: azimuth to the right of the camera, elevation above the ground; radians. */
+vec3 rig_direction(const rig_axes *axes, double azimuth, double elevation);
+
 /* Key, fill and rim, placed around the view of the camera; without names. */
 void rig_lights(const scene_camera *camera, scene_light lights[RIG_LIGHT_COUNT]);
 

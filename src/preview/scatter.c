@@ -2,6 +2,9 @@
  */
 #include "preview/shade.h"
 
+/* How far above the horizon of a coat the middle of a light is taken to be at least: sin of about a degree. Taste. */
+#define LOWEST 0.02
+
 static void to_local(const shade_layer *layer, vec3 world, float local[3])
 {
     local[0] = (float)v3_dot(world, layer->x);
@@ -100,6 +103,74 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
     }
 }
 
+/* ---- flat lights ---- */
+
+static void set_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
+{
+    *to = (glint_area_light){ .kind = from->kind, .hidden = from->hidden };
+    to_local(layer, from->center, to->center);
+    to_local(layer, from->half_x, to->half_x);
+    to_local(layer, from->half_y, to->half_y);
+}
+
+/* A direction to the light for what the coat leaves of the base, which changes little over it: to its middle, or the
+ * nearest above the coat's horizon. */
+static vec3 towards_area(const shade_point *p, const shade_area *area)
+{
+    const vec3 z = p->layers[p->layer_count - 1].z;
+    const vec3 middle = v3_normalize(area->center);
+    const double height = v3_dot(middle, z);
+    return height >= LOWEST ? middle : v3_normalize(v3_mad(middle, z, LOWEST - height));
+}
+
+void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value)
+{
+    const vec3 middle = towards_area(p, area);
+    *value = (glint_value){ 0 };
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        glint_area_light light;
+        glint_value one;
+        float weight[3];
+        set_local(layer, area, &light);
+        glint_eval_area(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, &light,
+                        &one);
+        weigh(p, i, middle, weight);
+        for (int c = 0; c < 3; ++c) {
+            value->rgb[c] += weight[c] * one.rgb[c];
+            value->smooth[c] += weight[c] * one.smooth[c];
+        }
+        if (layer->counts)
+            add_facets(&one, value);
+    }
+}
+
+bool shade_faces_area(const shade_point *p, const shade_area *area)
+{
+    for (int i = 0; i < p->layer_count; ++i) {
+        const vec3 z = p->layers[i].z;
+        const double highest = v3_dot(area->center, z) + fabs(v3_dot(area->half_x, z)) + fabs(v3_dot(area->half_y, z));
+        if (p->layers[i].wo[2] > 0.0F && highest > 0.0)
+            return true;
+    }
+    return false;
+}
+
+float shade_level(const shade_point *p, vec3 wi)
+{
+    float sum = 0.0F;
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        float local[3], rgb[3];
+        to_local(layer, wi, local);
+        glint_eval(layer->material, &layer->surface, NULL, layer->wo, local, NULL, rgb);
+        sum += layer->weight * (rgb[0] + rgb[1] + rgb[2]) / 3.0F;
+    }
+    return sum;
+}
+
+/* ---- sampling ---- */
+
 /* A guess of how much a layer reflects, which only steers the choice between layers. */
 static float importance(const shade_layer *layer)
 {
@@ -130,6 +201,19 @@ static glint_surface surface_in_surroundings(const shade_point *p, const shade_l
     for (int c = 0; c < 3; ++c)
         surface.diffuse[c] *= p->occlusion;
     return surface;
+}
+
+float shade_pdf(const shade_point *p, vec3 wi)
+{
+    float sum = 0.0F;
+    for (int i = 0; i < p->layer_count; ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const glint_surface surface = surface_in_surroundings(p, layer);
+        float local[3];
+        to_local(layer, wi, local);
+        sum += share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+    }
+    return sum;
 }
 
 bool shade_sample(const shade_point *p, float choose_layer, const float random[3], shade_direction *out)

@@ -153,7 +153,7 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
  * over and bumps are dents. */
 static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g, float choice, vec3 wo)
 {
-    vec3 u, v;
+    vec3 u = v3(0.0, 0.0, 0.0), v = u;
     scene_forget_directions(&layer->surface);
     place_axes(g, h, choice, &u, &v);
     if (!(v3_dot(u, u) > 0.0))
@@ -234,4 +234,17 @@ float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
     float rgba[4];
     look_up_base_color(&l, &s->scene->materials[h.mesh->material], rgba);
     return rgba[3];
+}
+
+void shade_emission(const shader *s, const geometry *g, const trace_hit *at, float rgb[3])
+{
+    const hit_step still = { 0 };
+    hit h;
+    hit_locate(g, at, &h);
+    const lookup l = make_lookup(s, &h, &still);
+    const scene_material *const m = &s->scene->materials[h.mesh->material];
+    float rgba[4];
+    look_up(&l, &m->emissive_texture, rgba);
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = m->emissive[c] * rgba[c];
 }

@@ -53,6 +53,21 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);
 
+/* A flat light as the point sees it, in world axes. */
+typedef struct shade_area {
+    glint_area_kind kind;
+    vec3 center, half_x, half_y; /* center: from the point; it shines to the side of half_x x half_y */
+    float hidden;                /* share that something stands in front of */
+} shade_area;
+
+/* The same three for it: value per radiance, as glint_eval_area. */
+void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value);
+bool shade_faces_area(const shade_point *p, const shade_area *area);
+/* Mean over the channels of f |cos theta_i| without single facets, for one of its directions. */
+float shade_level(const shade_point *p, vec3 wi);
+/* Density with which shade_sample draws wi, per steradian. */
+float shade_pdf(const shade_point *p, vec3 wi);
+
 typedef struct shade_direction {
     int layer;       /* which was chosen */
     vec3 wi;         /* world, unit */
@@ -84,5 +99,7 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
 
 /* Opacity of a point for rays that only want to know whether they pass; textures are not filtered. */
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at);
+/* What a point without a coat emits, likewise. */
+void shade_emission(const shader *s, const geometry *g, const trace_hit *at, float rgb[3]);
 
 #endif

@@ -6,7 +6,8 @@
 
 static shade_surroundings surroundings_of(const world *w, const environment_light *from)
 {
-    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr, (float)w->spp };
+    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr,
+                                 (float)(w->footprint_side * w->footprint_side) };
 }
 
 static void count_evaluation(const shade_point *p, const glint_value *value, ray_counts *counts)
@@ -75,4 +76,63 @@ void add_escaped_light(const world *w, const shade_point *p, const shade_directi
     if (s.solid_angle_sr > 0.0F)
         count_evaluation(p, &value, counts);
     add_value(sum, throughput, from.rgb, &value);
+}
+
+/* ---- glowing triangles ---- */
+
+/* Shadow rays end this far before the triangle, relative to the distance: it is a surface, too. */
+#define SHORT_OF 1e-4
+
+/* Of a point of a triangle as seen from a distance: a density per area becomes one per solid angle. */
+static shade_surroundings glow_of(const world *w, const emitter_point *from, vec3 wi, double distance)
+{
+    const double cosine = fabs(v3_dot(wi, from->normal));
+    const double area_per_steradian = distance * distance / fmax(cosine, 1e-12);
+    return (shade_surroundings){ wi, (float)(from->pdf_per_area * area_per_steradian),
+                                 (float)(from->area_m2 / area_per_steradian), (float)w->spp };
+}
+
+void add_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+              const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+{
+    double u[2];
+    emitter_point from;
+    if (w->emitters == NULL)
+        return;
+    sampler_pair(random, dimension, u);
+    emitters_sample(w->emitters, u, &from);
+    trace_ray ray = { .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
+    const vec3 towards = v3_sub(from.position, ray.origin);
+    const double distance = v3_length(towards);
+    ray.direction = v3_normalize(towards);
+    ray.far = distance * (1.0 - SHORT_OF);
+    if (!(distance > 0.0) || (!from.two_sided && v3_dot(ray.direction, from.normal) >= 0.0) ||
+        !shade_faces(p, ray.direction))
+        return;
+    float emission[3];
+    glint_value value;
+    shade_emission(&w->shader, w->geometry, &from.at, emission);
+    ++counts->shadow_rays;
+    if (trace_occluded(w->trace, &ray))
+        return;
+    const shade_surroundings s = glow_of(w, &from, ray.direction, distance);
+    shade_eval_surroundings(p, &s, &value);
+    count_evaluation(p, &value, counts);
+    add_value(sum, throughput, emission, &value);
+    note_facets(facets, &value);
+}
+
+bool add_found_glow(const world *w, const shade_point *p, const shade_direction *found, const trace_hit *at,
+                    const hit *h, const float emission[3], const float throughput[3], radiance *sum, ray_counts *counts)
+{
+    emitter_point from;
+    glint_value value;
+    if (!emitters_find(w->emitters, at, &from))
+        return false;
+    const shade_surroundings s = glow_of(w, &from, found->wi, h->distance);
+    shade_eval_found(p, &s, found, &value);
+    if (s.solid_angle_sr > 0.0F)
+        count_evaluation(p, &value, counts);
+    add_value(sum, throughput, emission, &value);
+    return true;
 }

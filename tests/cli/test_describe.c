@@ -93,6 +93,23 @@ static void material_is_shown_in_words_and_units(void **state)
     outcome_free(&o);
 }
 
+static void glints_of_both_layers_are_shown(void **state)
+{
+    (void)state;
+    outcome o = glint_run(NULL, "materials", "two-layer-car-paint");
+    outcome json = glint_run(NULL, "materials", "two-layer-car-paint", "--json");
+    assert_exit(&o, 0);
+    assert_says(o.out, "in the clear coat as well:");
+    assert_says(o.out, "7e+08");
+    assert_says(o.out, "1.4e+06");
+    json_t *d = document_of(&json);
+    assert_true(json_number_value(json_object_get(d, "glint_density_per_m2")) == 7e8);
+    assert_true(json_number_value(json_object_get(json_object_get(d, "coat"), "glint_density_per_m2")) == 1.4e6);
+    json_decref(d);
+    outcome_free(&o);
+    outcome_free(&json);
+}
+
 static void preset_is_shown_with_its_title_and_source(void **state)
 {
     (void)state;
@@ -130,6 +147,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(inspect_names_what_is_in_the_file, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(materials_lists_every_preset, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(material_is_shown_in_words_and_units, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(glints_of_both_layers_are_shown, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(preset_is_shown_with_its_title_and_source, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(unknown_preset_lists_the_near_names, enter, workplace_leave),
     };

@@ -166,6 +166,56 @@ static void answers_are_those_of_the_library(void **state)
     assert_int_equal(smooth, 0);
 }
 
+/* The metal under a coat of roughness .5, half covered, with glints of its own. */
+static void a_coat_lies_over_the_base_unless_one_layer_is_asked_for(void **state)
+{
+    (void)state;
+    char coated[2048];
+    snprintf(coated, sizeof coated,
+             "%.*s, \"KHR_materials_clearcoat\": { \"clearcoatFactor\": 0.5, "
+             "\"clearcoatRoughnessFactor\": 0.5, \"extensions\": { \"GLINT_materials_glint\": { "
+             "\"glintFactor\": 1, \"glintDensity\": 65536, \"glintSeed\": 9 } } } } }",
+             (int)(strlen(metal_text) - strlen(" } }")), metal_text);
+    file_write_text("coated.json", coated);
+    glint_material_options base = GLINT_MATERIAL_OPTIONS_INIT, coat = GLINT_MATERIAL_OPTIONS_INIT, o = coat;
+    glint_material *made[3];
+    made[1] = metal_create(GLINT_MODEL_COUNTING);
+    base.facet_alpha = 0.0625F;
+    base.seed = 5;
+    base.surface = glint_material_surface(made[1]);
+    coat.facet_alpha = 0.0025F;
+    coat.seed = 9U | 0x80000000U; /* never the base's */
+    coat.surface.facets_per_m2 = 65536.0F;
+    for (int c = 0; c < 3; ++c)
+        coat.surface.f0[c] = 0.04F;
+    o.model = GLINT_MODEL_LAYERED;
+    o.layers.base = &base;
+    o.layers.coat = &coat;
+    o.layers.coat_weight = 0.5F;
+    assert_int_equal(glint_material_create(&o, &made[0], NULL, 0), GLINT_OK);
+    assert_int_equal(glint_material_create(&coat, &made[2], NULL, 0), GLINT_OK);
+    static const char *const layers[3] = { "all", "base", "clearcoat" };
+    query queries[QUERY_COUNT];
+    char *text = random_queries(queries);
+    for (int k = 0; k < 3; ++k) {
+        outcome r = glint_run(&(run_setup){ .input = text }, "eval", "--material", "coated.json", "--layer", layers[k]);
+        assert_exit(&r, 0);
+        const char *line = r.out;
+        for (int i = 0; i < QUERY_COUNT; ++i) {
+            const glint_value value = value_of(made[k], &queries[i]);
+            char *end;
+            for (int c = 0; c < 3; ++c, line = end)
+                assert_true(fabs(strtod(line, &end) - (double)value.rgb[c]) <= 1e-5 * (double)value.rgb[c]);
+        }
+        outcome_free(&r);
+        glint_material_destroy(made[k]);
+    }
+    free(text);
+    assert_refused(glint_run(NULL, "eval", "--material", "metal.json", "--layer", "clearcoat"), 1,
+                   "metal.json: --layer clearcoat: found no clear coat, expected a clearcoatFactor above 0");
+    assert_refused(glint_run(NULL, "eval", "--material", "metal.json", "--model", "layered"), 2, "layered");
+}
+
 static void json_holds_every_value(void **state)
 {
     (void)state;
@@ -376,6 +426,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(answers_are_those_of_the_library),
+        cmocka_unit_test(a_coat_lies_over_the_base_unless_one_layer_is_asked_for),
         cmocka_unit_test(json_holds_every_value),
         cmocka_unit_test(no_query_gives_no_answer),
         cmocka_unit_test(layout_of_a_line_does_not_matter),

@@ -1,5 +1,5 @@
 /* Batches and threads: every model gives the bits of single calls, whoever asks and however many at a time. */
-#include "configurations.h"
+#include "contract.h"
 
 #include <pthread.h>
 #include <string.h>
@@ -81,6 +81,7 @@ static void batch_gives_the_bits_of_single_calls(void **state)
                 assert_memory_equal(&rgb[k], &a.rgb[k][i], sizeof(float));
         }
     }
+    contract_kept(12, "A batch gives the bits of single calls", "batches", NULL);
 }
 
 static void batch_with_a_missing_array_is_refused(void **state)
@@ -132,6 +133,7 @@ static void threads_may_share_a_material(void **state)
         assert_memory_equal(a[0].rgb, a[2].rgb, sizeof(a[0].rgb));
         assert_memory_equal(a[1].rgb, a[2].rgb, sizeof(a[1].rgb));
     }
+    contract_kept(13, "Threads may share a material, and get the same bits", "batches", NULL);
 }
 
 int main(void)

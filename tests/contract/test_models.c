@@ -1,5 +1,5 @@
 /* What every model promises, for every model: sign, reciprocity, energy, convergence. */
-#include "configurations.h"
+#include "contract.h"
 
 #define PI 3.14159265358979323846
 
@@ -20,6 +20,7 @@ static void values_are_finite_and_not_negative(void **state)
             assert_true(isfinite(v.rgb[k]) && v.rgb[k] >= 0.0F && isfinite(v.smooth[k]) && v.smooth[k] >= 0.0F);
         assert_true(v.lit_probability >= 0.0F && v.lit_probability <= 1.0F && v.facet_count >= 0.0F);
     }
+    contract_kept(1, "Finite and not negative", "models", NULL);
 }
 
 static void light_and_viewer_may_be_exchanged(void **state)
@@ -46,6 +47,8 @@ static void light_and_viewer_may_be_exchanged(void **state)
             }
         }
     }
+    contract_kept(3, "Light and viewer may be exchanged", "models",
+                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "no (1)" }, { GLINT_MODEL_SMOOTH, NULL } });
 }
 
 static void nothing_is_seen_below_the_horizon(void **state)
@@ -64,6 +67,7 @@ static void nothing_is_seen_below_the_horizon(void **state)
         assert_true(rgb[0] == 0.0F && rgb[1] == 0.0F && rgb[2] == 0.0F);
         assert_true(glint_pdf(m, NULL, NULL, up, bad[i]) == 0.0F && glint_pdf(m, NULL, NULL, bad[i], up) == 0.0F);
     }
+    contract_kept(2, "Zero below the horizon", "models", NULL);
 }
 
 /* Albedo by the model's own sampling, by cosine sampling, and never above one. */
@@ -93,6 +97,7 @@ static void energy_is_kept_and_sampling_agrees_with_quadrature(void **state)
             fail_msg("%s, %s, view at %g: albedo %g by sampling, %g by quadrature, sigma %g",
                      glint_model_name(row->model), c.name, theta[t], sampled.mean, quadrature.mean, sigma);
     }
+    contract_kept(4, "No more light than comes in; sampling agrees with quadrature", "models", NULL);
 }
 
 static void weight_times_density_is_the_value(void **state)
@@ -114,6 +119,7 @@ static void weight_times_density_is_the_value(void **state)
         for (int k = 0; k < 3; k++)
             assert_true(fabs((double)(s.weight[k] * s.pdf) - (double)rgb[k]) <= 1e-5 * (double)rgb[k] + 1e-12);
     }
+    contract_kept(8, "Weight times density is the value", "models", NULL);
 }
 
 /* Root mean square of value / smooth - 1 over footprints. */
@@ -155,6 +161,8 @@ static void tends_to_smooth_as_density_grows(void **state)
         if (most_facets(row, &c) > 1e12)
             assert_true(last < 1e-4);
     }
+    contract_kept(6, "Tends to smooth as density grows", "models",
+                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "yes (3)" }, { GLINT_MODEL_SMOOTH, NULL } });
 }
 
 int main(void)

@@ -5,7 +5,7 @@ status=0
 message=$(./dev polish 2>&1 >/dev/null) || status=$?
 [ "$status" = 2 ]
 grep -q "'polish'" <<<"$message"
-for command in build preview test study fuzz format tidy clean; do
+for command in build preview addon test study fuzz format tidy clean; do
     grep -q "^  $command " <<<"$message"
     grep -q "^dev_$command()" dev
 done

@@ -195,6 +195,35 @@ class GltfFiles(unittest.TestCase):
         self.assertAlmostEqual(found["POINT"].shadow_soft_size, 0.3, places=6)
         self.assertAlmostEqual(found["SPOT"].shadow_soft_size, 0.07, places=6)
 
+    def test_area_lights_go_out_and_come_back(self):
+        new_material()
+        wanted = {}
+        for shape, width, height in (("RECTANGLE", 0.4, 0.2), ("SQUARE", 0.3, 9.0), ("DISK", 0.5, 9.0)):
+            light = self.add_light("AREA", shape=shape, size=width, size_y=height, energy=7.0, color=(1.0, 0.5, 0.25))
+            holder = next(o for o in bpy.data.objects if o.data is light)
+            light.name = holder.name = shape
+            holder.location, holder.rotation_euler = (1.0, 2.0, 3.0), (0.5, 0.2, 0.1)
+            bpy.context.view_layer.update()
+            wanted[shape] = holder.matrix_world.copy()
+        path, document = export("area.glb")
+        lights = {light["name"]: light for light in document["extensions"]["EXT_lights_area"]["lights"]}
+        self.assertAlmostEqual(lights["RECTANGLE"]["intensity"], 7.0 / (math.pi * 0.08), places=4)
+        self.assertAlmostEqual(lights["DISK"]["intensity"], 7.0 / (math.pi * math.pi * 0.0625), places=4)
+        self.assertEqual([lights[n]["type"] for n in ("RECTANGLE", "SQUARE", "DISK")], ["rect", "rect", "disk"])
+        self.assertAlmostEqual(lights["RECTANGLE"]["rect"]["aspect"], 2.0, places=5)
+        self.assertIn("EXT_lights_area", document["extensionsUsed"])
+        fresh()
+        from glint import compat
+
+        compat.import_gltf(path)
+        bpy.context.view_layer.update()
+        for name, matrix in wanted.items():
+            holder = next(o for o in bpy.data.objects if o.type == "LIGHT" and o.data.name == name)
+            self.assertAlmostEqual(holder.data.energy, 7.0, places=4)
+            for row in range(4):
+                for column in range(4):
+                    self.assertAlmostEqual(holder.matrix_world[row][column], matrix[row][column], places=5)
+
     def test_materials_come_back_as_they_went(self):
         from glint import compat, extension, presets
 

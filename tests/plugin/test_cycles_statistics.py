@@ -3,8 +3,9 @@
 
     python3 test_cycles_statistics.py GLINT FOLDER
 
-Other flakes, so the two pictures agree only as two draws of one law do: `glint compare` says how well that is known. A check
-that is outside by less than two standard errors is "unclear" there and passes here only when the error is small.
+Other flakes, so the two pictures agree only as two draws of one law do: `glint compare` says how well that is known, and a check
+passes here when what is left after two standard errors is within its bound. Single pixels are held to 40 %: with one flake in
+a pixel the counting model is softer than a box filter (docs/blender.md).
 """
 
 import json
@@ -16,8 +17,16 @@ from test_cycles_flakes import REFERENCE, run
 
 SIZE, SAMPLES = "256x256", "64"
 SUN_RAD = 0.2  # a large sun lights more flakes, which makes both pictures less noisy
-# Of a ratio: half the tolerance, so that a wrong mean or variance could not hide.
-MOST_ERROR = {"mean": 0.01, "variance": 0.1}
+MEAN, VARIANCE, VARIANCE_OF_PIXELS = 0.02, 0.2, 0.4
+# Of a ratio of variances: half the tolerance, so that a wrong one could not hide. There are 256 blocks of 16 x 16 pixels:
+# their variance is known to 10 % at best.
+MOST_ERROR = 0.1
+
+
+def hold(name, ratio, bound):
+    off = abs(ratio["ratio"] - 1.0)
+    print(f"{name}: {ratio['ratio']:.4f} +- {ratio['standard_error']:.4f}, expected 1 +- {bound}")
+    assert off - 2.0 * ratio["standard_error"] <= bound, name
 
 
 def main():
@@ -29,16 +38,17 @@ def main():
         "--bounces", "0", "--aov")
     run("blender", "-b", "--factory-startup", "--python-exit-code", "3", "-P", REFERENCE, "--", scene, "-o", cycles,
         "--size", SIZE, "--spp", SAMPLES)
-    found = json.loads(run(glint, "compare", cycles, ours, "--json", "-o", os.path.join(folder, "report.html")))
-    for check in found["checks"]:
-        print(f"{check['name']}: {check['value']:.4f} +- {check['standard_error']:.4f}, {check['outcome']}")
+    found = json.loads(run(glint, "compare", cycles, ours, "--json", "-o", os.path.join(folder, "report.html"),
+                           "--variance-tolerance", str(VARIANCE_OF_PIXELS)))
     assert not found["same_facets"]
-    assert found["verdict"] != "fail"
-    for check in found["checks"]:
-        kind = check["name"].split()[0]
-        # There are 256 blocks of 16 x 16 pixels: their variance is known to 10 % at best.
-        if kind in MOST_ERROR and "16 x 16" not in check["name"]:
-            assert check["standard_error"] < MOST_ERROR[kind], check
+    assert found["a_not_finite"] == found["b_not_finite"] == 0
+    hold("mean", found["mean"]["luminance"], MEAN)
+    for block in found["blocks"]:
+        if block["side"] > 16:
+            continue
+        hold(f"variance of {block['side']} x {block['side']} blocks", block["variance"],
+             VARIANCE_OF_PIXELS if block["side"] == 1 else VARIANCE)
+        assert block["side"] == 16 or block["variance"]["standard_error"] < MOST_ERROR, block
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "facet_truth.h"
 #include "pictures.h"
 #include "scenes.h"
 
@@ -26,9 +27,11 @@ static scene flaky_floor(float facets_per_m2)
     return s;
 }
 
-/* Renders the floor with many seeds and compares the mean over them with the smooth picture. bias: what the model may
- * be off by, relative, besides the noise. */
-static void compare_means(scene *s, const preview_options *o, double bias)
+/* Of the binomial law. */
+#define COUNTING_BIAS 2e-4
+
+/* Renders the floor with many seeds and compares the mean over them with so many times the smooth picture. */
+static void compare_means(scene *s, const preview_options *o, double factor)
 {
     double sum = 0.0, squares = 0.0, smooth = 0.0;
     for (uint32_t seed = 0; seed < SEEDS; ++seed) {
@@ -41,14 +44,12 @@ static void compare_means(scene *s, const preview_options *o, double bias)
         image_free(&i);
     }
     const double sigma = sqrt(fmax(squares - sum * sum, 0.0) / (SEEDS - 1));
+    smooth *= factor;
     /* Five standard errors; a test that could not see 3 percent of noise would be none. */
     assert_true(sigma < 0.006 * smooth);
-    if (!(fabs(sum - smooth) <= 5.0 * sigma + bias * smooth))
+    if (!(fabs(sum - smooth) <= 5.0 * sigma + COUNTING_BIAS * smooth))
         fail_msg("mean %.6g, smooth %.6g: %.1f standard errors of %.2g", sum, smooth, (sum - smooth) / sigma, sigma);
 }
-
-/* Of the binomial law. */
-#define COUNTING_BIAS 2e-4
 
 static void the_mean_over_seeds_is_the_smooth_picture(void **state)
 {
@@ -58,19 +59,31 @@ static void the_mean_over_seeds_is_the_smooth_picture(void **state)
     preview_options o = pictures_options(&c);
     o.width = o.height = 96;
     o.spp = 1;
-    compare_means(&s, &o, COUNTING_BIAS);
+    compare_means(&s, &o, 1.0);
     s.materials[0].glint.space = SCENE_SPACE_OBJECT;
-    compare_means(&s, &o, COUNTING_BIAS);
+    compare_means(&s, &o, 1.0);
     s.materials[0].glint.layer = SCENE_LAYER_CLEARCOAT;
     s.materials[0].metallic = s.materials[0].specular = 0.0F; /* the base is black: all light comes from the coat */
     s.materials[0].base_color[0] = 0.0F;
     s.materials[0].clearcoat = 1.0F;
     s.materials[0].clearcoat_roughness = 0.5F;
-    compare_means(&s, &o, COUNTING_BIAS);
+    compare_means(&s, &o, 1.0);
     scene_free(&s);
 }
 
-static void explicit_facets_make_the_same_picture_in_the_mean(void **state)
+/* What a light of this size makes of D, as mirrors have it: over its cap, and not at its middle. */
+static double mean_over_light(const scene_light *l, float roughness)
+{
+    const float up[3] = { 0.0F, 0.0F, 1.0F };
+    /* The light's z axis points back at it; the floor's normal is y. */
+    const float wi[3] = { l->to_world[8], l->to_world[10], l->to_world[9] };
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.surface.alpha_x = o.surface.alpha_y = roughness * roughness;
+    return facet_moments_of(&o, up, wi, 2.0 * 3.14159265358979 * (1.0 - cos(0.5 * (double)l->angular_diameter_rad)))
+        .mean;
+}
+
+static void explicit_facets_make_the_picture_that_mirrors_under_a_round_light_must_make(void **state)
 {
     (void)state;
     scene s = flaky_floor(20000.0F);
@@ -79,8 +92,45 @@ static void explicit_facets_make_the_same_picture_in_the_mean(void **state)
     o.width = o.height = 48;
     o.spp = 4;
     o.model = GLINT_MODEL_EXPLICIT;
-    /* The explicit facets know the light's true shape, a cap of 0.2 rad radius, over which D is not flat. */
-    compare_means(&s, &o, 0.05);
+    compare_means(&s, &o, mean_over_light(&s.lights[0], 0.5F));
+    scene_free(&s);
+}
+
+/* The pixel's own box filter, exactly, however many samples make it up: their footprints tile the pixel. */
+static void explicit_facets_make_the_same_picture_with_any_number_of_samples(void **state)
+{
+    (void)state;
+    scene s = flaky_floor(20000.0F);
+    const float side[3] = { -8.0F, 6.0F, 3.0F }, target[3] = { 0.0F, 0.0F, 0.0F };
+    const scene_camera cameras[2] = { pictures_from_above(1.0F),
+                                      scenes_camera(SCENE_ORTHOGRAPHIC, side, target, 1.0F) };
+    for (int k = 0; k < 4; ++k) {
+        s.materials[0].glint.space = k % 2 == 0 ? SCENE_SPACE_UV : SCENE_SPACE_OBJECT;
+        preview_options o = pictures_options(&cameras[k / 2]);
+        o.width = o.height = 24;
+        o.model = GLINT_MODEL_EXPLICIT;
+        o.spp = 1;
+        image one = pictures_render(&s, &o);
+        static const int samples[] = { 4, 16, 32 };
+        for (int n = 0; n < 3; ++n) {
+            o.spp = samples[n];
+            image many = pictures_render(&s, &o);
+            const double mean = pictures_mean(&one, "smooth.R");
+            int lit = 0;
+            for (int i = 0; i < 24 * 24; ++i) {
+                const double a = pictures_at(&one, "R", i % 24, i / 24), b = pictures_at(&many, "R", i % 24, i / 24);
+                lit += a > 1.5 * mean;
+                /* A hit is known to 2^-24 of some metres, which is 1e-5 of a pixel or of a facet, of which about 140
+                 * are there. */
+                if (!(fabs(a - b) <= 1e-3 * mean))
+                    fail_msg("camera %d, pixel %d %d: %.6g with one sample, %.6g with %d", k / 2, i % 24, i / 24, a, b,
+                             samples[n]);
+            }
+            assert_true(lit > 5);
+            image_free(&many);
+        }
+        image_free(&one);
+    }
     scene_free(&s);
 }
 
@@ -250,7 +300,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_over_seeds_is_the_smooth_picture),
-        cmocka_unit_test(explicit_facets_make_the_same_picture_in_the_mean),
+        cmocka_unit_test(explicit_facets_make_the_picture_that_mirrors_under_a_round_light_must_make),
+        cmocka_unit_test(explicit_facets_make_the_same_picture_with_any_number_of_samples),
         cmocka_unit_test(too_many_explicit_facets_are_an_error),
         cmocka_unit_test(discreteness_leaves_the_smooth_channels_alone),
         cmocka_unit_test(the_number_of_facets_is_density_times_area),

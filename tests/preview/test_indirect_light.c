@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -159,6 +160,60 @@ static void a_mirror_shows_what_stands_beside_it(void **state)
     scene_free(&s);
 }
 
+/* A glowing rectangle of 1 x 1 m, 1 m above a matte floor and facing it, in many triangles of different sizes: the
+ * floor below its middle has albedo * L * four times the form factor of a quarter. */
+static void a_glowing_panel_lights_by_its_form_factor_without_much_grain(void **state)
+{
+    (void)state;
+    enum { STRIPS = 12 };
+    scene_material glow = scenes_matte(0.0F);
+    const scene_material matte = scenes_matte(0.5F);
+    glow.emissive[0] = 2.0F;
+    glow.emissive[1] = glow.emissive[2] = 2.0F;
+    float corners[STRIPS][18];
+    for (int k = 0; k < STRIPS; ++k) { /* widths grow as squares do */
+        const float a = (float)(k * k) / (STRIPS * STRIPS) - 0.5F,
+                    b = (float)((k + 1) * (k + 1)) / (STRIPS * STRIPS) - 0.5F;
+        const float strip[18] = { a, 1, -0.5F, b, 1, -0.5F, b, 1, 0.5F, a, 1, -0.5F, b, 1, 0.5F, a, 1, 0.5F };
+        memcpy(corners[k], strip, sizeof strip);
+    }
+    scene s = scenes_empty();
+    scenes_add_instance(&s, scenes_add_square(&s, scenes_add_material(&s, &matte), 5.0F), NULL, 0);
+    scenes_add_instance(&s, scenes_add_triangles(&s, scenes_add_material(&s, &glow), corners[0], 2 * STRIPS), NULL, 1);
+    const scene_camera c = pictures_from_above(1e-3F); /* through the panel's back, which is not there */
+    preview_options o = pictures_options(&c);
+    o.width = o.height = 32;
+    o.bounces = 1;
+    o.spp = 16;
+    image i = pictures_render(&s, &o);
+    const double p = sqrt(1.25), factor = 4.0 * 2.0 * (0.5 / p * atan(0.5 / p)) / (2.0 * PI);
+    const double expected = 0.5 * 2.0 * factor, value = pictures_mean(&i, "G");
+    double variance = 0.0;
+    for (int k = 0; k < 1024; ++k)
+        variance += pow(pictures_at(&i, "G", k % 32, k / 32) - value, 2.0) / 1023.0;
+    const double sigma = sqrt(variance / 1024.0);
+    if (!(fabs(value - expected) <= 5.0 * sigma))
+        fail_msg("%.6g is not %.6g: %.1f sigma of %.2g", value, expected, (value - expected) / sigma, sigma);
+    /* Bounces alone find it with the probability F = .24: sqrt((1 - F) / F / 16) = 45 percent of grain. */
+    if (!(sqrt(variance) < 0.12 * expected))
+        fail_msg("%.2g of grain in a pixel", sqrt(variance) / expected);
+    image_free(&i);
+
+    /* The back of it does not glow, and without bounces nothing finds it. */
+    o.bounces = 0;
+    i = pictures_render(&s, &o);
+    assert_true(pictures_mean(&i, "G") == 0.0);
+    image_free(&i);
+    for (int k = 0; k < STRIPS; ++k)
+        for (int v = 0; v < 6; ++v)
+            s.meshes[1].position[18 * k + 3 * v + 1] = -1.0F;
+    o.bounces = 1;
+    i = pictures_render(&s, &o);
+    assert_true(pictures_mean(&i, "G") == 0.0);
+    image_free(&i);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +222,7 @@ int main(void)
         cmocka_unit_test(a_glowing_ball_sums_the_geometric_series),
         cmocka_unit_test(a_rough_metal_reflects_the_sky_as_its_lobe_says),
         cmocka_unit_test(a_mirror_shows_what_stands_beside_it),
+        cmocka_unit_test(a_glowing_panel_lights_by_its_form_factor_without_much_grain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "preview/camera.h"
+#include "preview/preview.h"
 #include "preview/shade.h"
 #include "scenes.h"
 #include "traced_scene.h"
@@ -113,7 +114,8 @@ static void layers_one_by_one_give_the_numbers_of_the_layered_model(void **state
     traced_scene t;
     materials made;
     textures *images = NULL;
-    assert_true(camera_make(&from, 32, 32, &c, &r) && materials_make(&s, GLINT_MODEL_COUNTING, &made, &r) &&
+    assert_true(camera_make(&from, 32, 32, &c, &r) &&
+                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, &made, &r) &&
                 textures_open(&s, &images, &r));
     traced_open(&t, &s, NULL);
     const shader with = { &s, &made, images };

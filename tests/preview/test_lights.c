@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -154,6 +155,75 @@ static void the_rig_can_be_put_into_the_scene(void **state)
     scene_free(&s);
 }
 
+/* ---- light sets ---- */
+
+/* A matte ball on a floor, all of it `scale` times as large, seen by a camera that went along. */
+static image ball_under(int set, float scale)
+{
+    scene s = scenes_empty();
+    const scene_material matte = scenes_matte(0.5F);
+    const int material = scenes_add_material(&s, &matte);
+    float place[16];
+    scenes_translation(place, 0.0F, scale, 0.0F);
+    scenes_add_instance(&s, scenes_add_sphere(&s, material, scale, 48, 24), place, 0);
+    scenes_add_instance(&s, scenes_add_square(&s, material, 20.0F * scale), NULL, 1);
+    const float eye[3] = { 2.0F * scale, 3.0F * scale, 8.0F * scale }, target[3] = { 0.0F, scale, 0.0F };
+    scene_camera c = scenes_camera(SCENE_PERSPECTIVE, eye, target, 0.4F);
+    preview_sky sky;
+    report r = { 0 };
+    assert_true(preview_use_light_set(&s, set, &c, &sky, &r));
+    preview_options o = pictures_options(&c);
+    o.sky = &sky;
+    image i = pictures_render(&s, &o);
+    scene_free(&s);
+    return i;
+}
+
+/* Lights stand around what is seen, as far away and as large as it asks for: a scene in millimetres looks as one in
+ * metres does, but for the rounding of single precision where a shadow begins, in a pixel or two. */
+static void a_light_set_suits_scenes_of_any_size(void **state)
+{
+    (void)state;
+    for (int set = 0; preview_light_set_name(set) != NULL; ++set) {
+        image one = ball_under(set, 1.0F), small = ball_under(set, 0.0009765625F);
+        int different = 0;
+        for (int k = 0; k < 256; ++k) {
+            const double a = pictures_at(&one, "G", k % 16, k / 16), b = pictures_at(&small, "G", k % 16, k / 16);
+            different += fabs(a - b) > 1e-3 * (a + b);
+        }
+        if (different > 8)
+            fail_msg("%s: %d of 256 pixels differ with the scale", preview_light_set_name(set), different);
+        const double level = pictures_mean(&one, "G");
+        if (strcmp(preview_light_set_name(set), "none") == 0)
+            assert_true(level == 0.0);
+        else if (!(level > 0.02 && level < 1.0)) /* neither night nor burnt out: a third of white is .16 */
+            fail_msg("%s: the mean is %g", preview_light_set_name(set), level);
+        image_free(&one);
+        image_free(&small);
+    }
+}
+
+/* The set replaces what the file brought, its image-based light as well. */
+static void a_light_set_takes_the_place_of_the_lights(void **state)
+{
+    (void)state;
+    scene s = scenes_empty();
+    for (int i = 0; i < 3; ++i)
+        scenes_add_light(&s, SCENE_LIGHT_POINT, ABOVE, 1e6F);
+    s.environment.present = true;
+    const scene_camera c = pictures_from_above(1.0F);
+    preview_sky sky;
+    report r = { 0 };
+    assert_true(preview_use_light_set(&s, 0, &c, &sky, &r));
+    assert_false(s.environment.present);
+    assert_true(s.light_count > 0);
+    for (int i = 0; i < s.light_count; ++i) {
+        assert_int_equal(s.lights[i].kind, SCENE_LIGHT_RECT);
+        assert_true(s.lights[i].width_m > 0.0F && isfinite(s.lights[i].intensity));
+    }
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +234,8 @@ int main(void)
         cmocka_unit_test(shadow_rays_cover_the_light_evenly),
         cmocka_unit_test(the_rig_stands_around_the_camera),
         cmocka_unit_test(the_rig_can_be_put_into_the_scene),
+        cmocka_unit_test(a_light_set_suits_scenes_of_any_size),
+        cmocka_unit_test(a_light_set_takes_the_place_of_the_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,6 +181,32 @@ static void only_the_layer_that_has_glints_counts(void **state)
     assert_int_equal(scene_coat_options(&m, GLINT_MODEL_SMOOTH).model, GLINT_MODEL_SMOOTH);
 }
 
+static void layers_with_glints_of_their_own_never_share_facets(void **state)
+{
+    (void)state;
+    scene_material m = painted();
+    m.clearcoat = 1.0F;
+    m.clearcoat_roughness = 0.5F;
+    m.glint.present = m.coat_glint.present = true;
+    m.glint.factor = 1.0F;
+    m.coat_glint.factor = 0.25F;
+    m.coat_glint.layer = SCENE_LAYER_CLEARCOAT;
+    m.coat_glint.density = 5e5F;
+    m.coat_glint.color[0] = 0.5F;
+    m.coat_glint.coverage = 0.75F;
+    m.glint.seed = m.coat_glint.seed = 7U;
+    const glint_material_options base = scene_base_options(&m, GLINT_MODEL_COUNTING);
+    const glint_material_options coat = scene_coat_options(&m, GLINT_MODEL_COUNTING);
+    assert_true(base.model == GLINT_MODEL_COUNTING && coat.model == GLINT_MODEL_COUNTING);
+    assert_true(base.surface.facets_per_m2 == 1e8F && coat.surface.facets_per_m2 == 5e5F);
+    assert_true(base.surface.discreteness == 1.0F && coat.surface.discreteness == 0.25F && coat.coverage == 0.75F);
+    assert_near(coat.surface.f0[0], 0.04 * (0.75 + 0.25 * 0.5), ROUNDING);
+    assert_near(base.surface.f0[0], 0.8, ROUNDING);
+    assert_true(base.seed == 7U && coat.seed != 7U);
+    m.glint.present = false;
+    assert_int_equal(scene_coat_options(&m, GLINT_MODEL_COUNTING).seed, 7);
+}
+
 static void the_color_of_glints_tints_the_share_that_is_counted(void **state)
 {
     (void)state;
@@ -222,6 +248,7 @@ int main(void)
         cmocka_unit_test(a_clear_coat_is_a_dielectric_of_index_one_and_a_half),
         cmocka_unit_test(every_texel_gives_a_surface_that_the_library_takes),
         cmocka_unit_test(only_the_layer_that_has_glints_counts),
+        cmocka_unit_test(layers_with_glints_of_their_own_never_share_facets),
         cmocka_unit_test(the_color_of_glints_tints_the_share_that_is_counted),
         cmocka_unit_test(the_library_takes_the_options_of_both_layers),
     };

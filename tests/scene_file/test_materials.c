@@ -144,6 +144,53 @@ static void glint_properties_are_read(void **state)
     assert_true(g->example_placement == SCENE_PLACEMENT_SCATTERED && g->example_size == 0.03F);
 }
 
+static void both_layers_may_have_glints(void **state)
+{
+    gltf_case *c = *state;
+    const scene_material *m = read_material(
+        c, "'extensions': { 'GLINT_materials_glint': { 'glintFactor': 1, 'glintDensity': 3e7, 'glintSeed': 4 },"
+           " 'KHR_materials_clearcoat': { 'clearcoatFactor': 1, 'extensions': { 'GLINT_materials_glint': {"
+           " 'glintFactor': 0.5, 'glintTexture': { 'index': 1 }, 'glintSpace': 'object' } } } }");
+    assert_true(m->glint.present && m->glint.layer == SCENE_LAYER_BASE && m->glint.density == 3e7F);
+    assert_true(m->coat_glint.present && m->coat_glint.layer == SCENE_LAYER_CLEARCOAT);
+    assert_true(m->coat_glint.factor == 0.5F && m->coat_glint.density == 1e8F && m->coat_glint.texture.image == 1 &&
+                m->coat_glint.space == SCENE_SPACE_OBJECT);
+    assert_ptr_equal(scene_layer_glint(m, SCENE_LAYER_BASE), &m->glint);
+    assert_ptr_equal(scene_layer_glint(m, SCENE_LAYER_CLEARCOAT), &m->coat_glint);
+    m = read_material(c, "'extensions': { 'KHR_materials_clearcoat': { 'extensions': { 'GLINT_materials_glint': {"
+                         " 'glintLayer': 'clearcoat' } } } }");
+    assert_true(!m->glint.present && m->coat_glint.present);
+    assert_null(scene_layer_glint(m, SCENE_LAYER_BASE));
+    m = read_material(c, "'extensions': { 'KHR_materials_clearcoat': {},"
+                         " 'GLINT_materials_glint': { 'glintLayer': 'clearcoat' } }");
+    assert_ptr_equal(scene_layer_glint(m, SCENE_LAYER_CLEARCOAT), &m->glint);
+    assert_null(scene_layer_glint(m, SCENE_LAYER_BASE));
+}
+
+static void glints_of_the_coat_are_of_the_coat_and_there_once(void **state)
+{
+    gltf_case *c = *state;
+    const char *const in_coat = "'materials': [{ 'extensions': { 'KHR_materials_clearcoat': { 'extensions': {"
+                                " 'GLINT_materials_glint': { %s } } }%s } }]";
+    gltf_case_json(c, in_coat, "'glintLayer': 'base'", "");
+    gltf_case_refused(c,
+                      "/materials/0/extensions/KHR_materials_clearcoat/extensions/GLINT_materials_glint/glintLayer: "
+                      "found \"base\" inside KHR_materials_clearcoat, expected \"clearcoat\" or nothing",
+                      NULL);
+    gltf_case_json(c, in_coat, "'glintFactor': 1", ", 'GLINT_materials_glint': { 'glintLayer': 'clearcoat' }");
+    gltf_case_refused(c,
+                      "/materials/0/extensions/KHR_materials_clearcoat/extensions/GLINT_materials_glint: found glints "
+                      "of the coat, expected none beside those of the material",
+                      NULL);
+    gltf_case_json(c, in_coat, "'glintDensity': 0", "");
+    gltf_case_refused(c,
+                      "/materials/0/extensions/KHR_materials_clearcoat/extensions/GLINT_materials_glint/glintDensity: "
+                      "found 0, expected a number above 0",
+                      NULL);
+    gltf_case_json(c, in_coat, "'glintTexture': { 'index': 7 }", "");
+    gltf_case_refused(c, "GLINT_materials_glint/glintTexture/index: found 7", NULL);
+}
+
 /* Each property with a value outside its range, of another type, or unknown. */
 static void glint_ranges_are_kept(void **state)
 {
@@ -287,6 +334,8 @@ int main(void)
         TEST(texture_transform_is_read_and_overrides_the_set),
         TEST(glint_defaults_are_those_of_its_text),
         TEST(glint_properties_are_read),
+        TEST(both_layers_may_have_glints),
+        TEST(glints_of_the_coat_are_of_the_coat_and_there_once),
         TEST(glint_ranges_are_kept),
         TEST(other_ranges_are_kept),
         TEST(specular_glossiness_keeps_its_reflectance),

@@ -6,11 +6,11 @@
 
 static const uint32_t CELL[2] = { 100U, 200U };
 static const uint32_t SEED = 5U;
-enum { BESIDE = 2, SAMPLES = 512 };
+enum { BESIDE = 2, SAMPLES = 256 };
 
 static void *room(size_t count, size_t size)
 {
-    void *memory = calloc(count, size);
+    void *memory = calloc(count > 0 ? count : 1, size);
     if (!memory) {
         fprintf(stderr, "example: no memory for %zu times %zu bytes\n", count, size);
         exit(1);
@@ -225,7 +225,8 @@ int example_picture_write_map(const example_picture *p, const char *path)
     const int height = (int)fmin(p->height * p->pixel / texel, SAMPLES);
     uint16_t *rgb = room((size_t)width * (size_t)height * 3, sizeof(*rgb));
     for (int k = 0; k < width * height; k++) {
-        const double at[2] = { (k % width + 0.5) * texel, (double)(k / width) * texel + 0.5 * texel };
+        const int x = k % width, y = k / width;
+        const double at[2] = { (x + 0.5) * texel, (y + 0.5) * texel };
         double slope[2];
         seed_surface_slope(&p->b->material.options.example, p->instances, p->instance_count, at, slope);
         const double z = 1.0 / sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);

@@ -31,7 +31,8 @@ example_difference example_picture_compare(const example_picture *p);
 int example_picture_write(const example_picture *p, const double *values, const char *path);
 /* Grey where both agree, red where the model is brighter, blue where it is darker; four times as strong. */
 int example_picture_write_difference(const example_picture *p, const char *path);
-/* The normal map that the seeds stand for, over the upper left quarter of the picture at most, as a normal map. */
+/* The normal map that the seeds stand for, as a normal map: of the upper left corner of the picture, 256 texels a side
+ * at most. */
 int example_picture_write_map(const example_picture *p, const char *path);
 
 #endif

@@ -39,7 +39,7 @@ typedef struct bench {
 static inline void bench_make(bench *b, glint_example_kind kind, const glint_example *options)
 {
     const glint_example_shape shape = GLINT_EXAMPLE_SHAPE_INIT;
-    *b = (bench){ .material = { &example_model, GLINT_MATERIAL_OPTIONS_INIT, 1.0F, NULL } };
+    *b = (bench){ .material = { .model = &example_model, .options = GLINT_MATERIAL_OPTIONS_INIT, .total_area = 1.0F } };
     b->normals = malloc((size_t)options->size * options->size * 3 * sizeof(float));
     assert_int_equal(glint_example_generate(kind, options->size, &shape, 3U, b->normals), GLINT_OK);
     b->material.options.example = *options;

@@ -62,14 +62,25 @@ static int covers(const seed_instance *n, const double at[2])
 /* Half the diagonal of the largest example that the library takes, and a bit. */
 static const double FARTHEST = 1.07;
 
-static int is_seen(const seed_instance *all, size_t count, size_t self, const double at[2])
+/* Those that may lie over a part of an instance. */
+static size_t find_rivals(const seed_instance *all, size_t count, size_t self, size_t *rivals)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < count; k++)
+        if (k != self && !all[k].is_ground && fabs(all[k].at[0] - all[self].at[0]) < 2.0 * FARTHEST &&
+            fabs(all[k].at[1] - all[self].at[1]) < 2.0 * FARTHEST)
+            rivals[found++] = k;
+    return found;
+}
+
+static int is_seen(const seed_instance *all, size_t self, const size_t *rivals, size_t count, const double at[2])
 {
     const double own = hypot(at[0] - all[self].at[0], at[1] - all[self].at[1]);
-    for (size_t k = 0; k < count; k++)
-        if (k != self && !all[k].is_ground && fabs(at[0] - all[k].at[0]) < FARTHEST &&
-            fabs(at[1] - all[k].at[1]) < FARTHEST &&
-            (all[self].is_ground || hypot(at[0] - all[k].at[0], at[1] - all[k].at[1]) < own) && covers(&all[k], at))
+    for (size_t k = 0; k < count; k++) {
+        const seed_instance *r = &all[rivals[k]];
+        if ((all[self].is_ground || hypot(at[0] - r->at[0], at[1] - r->at[1]) < own) && covers(r, at))
             return 0;
+    }
     return 1;
 }
 
@@ -78,14 +89,16 @@ seed_surface seed_surface_export(const glint_example *e, double sigma_r, const s
     const int n = (int)e->size;
     const int tiled = e->placement == GLINT_EXAMPLE_TILED;
     seed_surface s = { malloc(count * (size_t)(n * n) * sizeof(seed_gaussian)), 0 };
-    for (size_t k = 0; k < count; k++)
+    size_t *rivals = malloc(count * sizeof(*rivals));
+    for (size_t k = 0; k < count; k++) {
+        const size_t rival_count = tiled ? 0 : find_rivals(instances, count, k, rivals);
         for (int i = 0; i < n * n; i++) {
             const int x = i % n, y = i / n;
             const seed_matrix m = instances[k].map, back = inverse(m), tilt = transposed(back);
             const double px = (x + 0.5) / n - 0.5, py = (y + 0.5) / n - 0.5;
             seed_gaussian g = { .at = { instances[k].at[0] + m.xx * px + m.xy * py,
                                         instances[k].at[1] + m.yx * px + m.yy * py } };
-            if (!tiled && !is_seen(instances, count, k, g.at))
+            if (!tiled && !is_seen(instances, k, rivals, rival_count, g.at))
                 continue;
             if (!instances[k].is_ground) {
                 double slope[2];
@@ -100,6 +113,8 @@ seed_surface seed_surface_export(const glint_example *e, double sigma_r, const s
             g.area = fabs(m.xx * m.yy - m.xy * m.yx) / (n * n);
             s.seeds[s.count++] = g;
         }
+    }
+    free(rivals);
     return s;
 }
 
@@ -109,8 +124,11 @@ void seed_surface_slope(const glint_example *e, const seed_instance *instances, 
     const seed_instance *owner = NULL;
     double best = 1e30;
     for (size_t k = 0; k < count; k++) {
-        const double away = hypot(at[0] - instances[k].at[0], at[1] - instances[k].at[1]);
-        if (!instances[k].is_ground && away < best && covers(&instances[k], at)) {
+        const double x = at[0] - instances[k].at[0], y = at[1] - instances[k].at[1];
+        if (instances[k].is_ground || fabs(x) > FARTHEST || fabs(y) > FARTHEST)
+            continue;
+        const double away = hypot(x, y);
+        if (away < best && covers(&instances[k], at)) {
             best = away;
             owner = &instances[k];
         }

@@ -331,6 +331,32 @@ static void origin_is_a_place_like_any_other(void **state)
     assert_true(fabs(moments_variance(&m) / (0.5 * 0.99 / 10.005) - 1.0) < 0.01 + 0.01);
 }
 
+/* Levels of the angular lattice change where the cap's area passes a power of four. */
+static void nothing_moves_when_the_cap_passes_a_level(void **state)
+{
+    (void)state;
+    uint64_t random = 17;
+    static float below[COUNT], above[COUNT], facets[COUNT];
+    for (int level = 1; level <= 13; level++) {
+        fill(&random);
+        for (int side = 0; side < 2; side++) {
+            for (int i = 0; i < COUNT; i++) {
+                a.cap[i] = (float)(ldexp(1.0, -2 * level) * (side ? 1.0 + 1e-6 : 1.0 - 1e-6));
+                a.density[i] = (float)(3.0 / fmax((double)(a.dudx[i] * a.dvdy[i] - a.dudy[i] * a.dvdx[i]), 1e-20));
+                a.p[i] = 0.3F;
+            }
+            counting_kernel_1(&points, COUNT, side ? above : below, facets);
+        }
+        /* A millionth of the cap makes as many of the cells take the other level: of 4096 points with 12 of them each
+         * the odd one. h is cut to 2^-16 of a cell, which moves a value by a few times that. */
+        int moved = 0;
+        for (int i = 0; i < COUNT; i++)
+            moved += fabs((double)(above[i] - below[i])) > 1e-3 * (1.0 + (double)below[i]);
+        if (moved > 10)
+            fail_msg("at 4^-%d %d of %d values move", level, moved, COUNT);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,6 +369,7 @@ int main(void)
         cmocka_unit_test(chroma_varies_as_the_tints_of_lit_facets),
         cmocka_unit_test(facet_larger_than_the_pixel_is_lit_or_not),
         cmocka_unit_test(origin_is_a_place_like_any_other),
+        cmocka_unit_test(nothing_moves_when_the_cap_passes_a_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

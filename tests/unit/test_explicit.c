@@ -9,6 +9,7 @@
 
 #include "footprint/coverage.h"
 #include "model/facet.h"
+#include "model/facet_lobe.h"
 #include "ndf/slopes.h"
 #include "statistics.h"
 
@@ -54,6 +55,19 @@ static void shares_add_up_and_surround_the_pixel(void **state)
         assert_true(t.cells <= coverage_cell_bound(&p));
         /* The centre of the shares is within a cell of the pixel's. */
         assert_true(fabs(t.u - p.u) < 1.0 && fabs(t.v - p.v) < 1.0);
+    }
+}
+
+/* The cost is one visit a facet: as many as the pixel has area, and those that its outline cuts. */
+static void visits_grow_with_the_facets_and_no_faster(void **state)
+{
+    (void)state;
+    for (double side = 1.0; side < 3000.0; side *= 3.0) {
+        const coverage_pixel p = { 0.3, 0.7, 0.8 * side, -0.6 * side, 0.6 * side, 0.8 * side };
+        tally t = { .least = 1.0 };
+        coverage_each(&p, tally_cell, &t);
+        /* A straight line of length 4 side crosses at most 4 side * sqrt(2) + 4 borders, and enters a cell at each. */
+        assert_true(t.cells >= side * side && t.cells <= side * side + 4.0 * sqrt(2.0) * side + 4.0);
     }
 }
 
@@ -174,12 +188,67 @@ static void slopes_follow_their_weighting(void **state)
             }
 }
 
+/* The same mass around the lobe's middle, in double: all of the rings of radius s that lie within the disk, and the
+ * arcs of those that its rim cuts, cos(half the arc) = (s^2 + d^2 - r^2) / (2 s d). s = middle + half sin(t) makes the
+ * ends smooth. */
+static double disk_mass_by_quadrature(int beckmann, double d2, double r2)
+{
+    enum { STEPS = 40000 };
+    const double d = sqrt(d2), r = sqrt(r2), inner = fabs(r - d);
+    /* A Gaussian has ended by 8. */
+    const double outer = beckmann ? fmin(r + d, fmax(inner, 8.0)) : r + d;
+    const double middle = 0.5 * (outer + inner), half = 0.5 * (outer - inner);
+    double sum = r > d ? (beckmann ? -expm1(-inner * inner) : inner * inner / (1.0 + inner * inner)) : 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        const double t = PI * ((i + 0.5) / STEPS - 0.5), s = middle + half * sin(t);
+        const double cosine = (s * s + d2 - r2) / (2.0 * s * d);
+        const double arc = acos(fmax(-1.0, fmin(1.0, cosine)));
+        const double density = beckmann ? exp(-s * s) : 1.0 / ((1.0 + s * s) * (1.0 + s * s));
+        sum += 2.0 * s * density * arc / PI * half * cos(t) * PI / STEPS;
+    }
+    return sum;
+}
+
+/* GGX is half a dozen roundings; Beckmann's Bessel function is good to 2e-7, its Gaussian ends at 2e-8, and the
+ * distance of the rim carries the rounding of d^2 and r^2, an ulp of d: the mass changes by its slope, at most 1.13. */
+static void part_of_a_rough_facet_that_meets_the_light_agrees_with_quadrature(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    double worst[2] = { 0.0, 0.0 };
+    for (int i = 0; i < 1200; i++) {
+        const float d2 = i % 10 ? (float)random_log_between(&random, 1e-6, 900.0) : 1e-12F;
+        /* Disks that are small, that are large, and whose rim passes near the lobe's middle. */
+        const float r2 = i % 3 ? (float)random_log_between(&random, 1e-6, 900.0)
+                               : (float)pow(sqrt((double)d2) + random_between(&random, -2.0, 2.0), 2.0);
+        for (int kind = 0; kind < 2; kind++) {
+            const double expected = disk_mass_by_quadrature(kind, (double)d2, (double)r2);
+            const double found = (double)facet_lobe_disk_mass(kind ? NDF_BECKMANN : NDF_GGX, d2, r2);
+            const double bound = kind ? 1e-6 + 1.2e-7 * 1.13 * sqrt((double)d2) : 1e-6 * expected + 1e-9;
+            worst[kind] = fmax(worst[kind], fabs(found - expected));
+            if (!(fabs(found - expected) <= bound))
+                fail_msg("%s, d^2 %g, r^2 %g: %.8g, by quadrature %.8g", kind ? "Beckmann" : "GGX", (double)d2,
+                         (double)r2, found, expected);
+        }
+    }
+    printf("mass of a lobe within a disk: off by %.1e (GGX) and %.1e (Beckmann) at most\n", worst[0], worst[1]);
+    assert_true(facet_lobe_disk_mass(NDF_GGX, 1.0F, 1e12F) > 0.999999F);
+    assert_true(facet_lobe_disk_mass(NDF_BECKMANN, 1.0F, 1e12F) > 0.999999F);
+    assert_true(facet_lobe_disk_mass(NDF_BECKMANN, 1e12F, 1.0F) == 0.0F);
+    assert_true(facet_lobe_disk_mass(NDF_GGX, 0.0F, 0.0F) == 0.0F &&
+                facet_lobe_disk_mass(NDF_BECKMANN, 0.0F, 0.0F) == 0.0F);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_add_up_and_surround_the_pixel), cmocka_unit_test(pixel_within_a_cell_has_all_of_it),
-        cmocka_unit_test(share_of_a_cell_agrees_with_points),   cmocka_unit_test(hashes_are_those_of_the_renderers),
+        cmocka_unit_test(shares_add_up_and_surround_the_pixel),
+        cmocka_unit_test(visits_grow_with_the_facets_and_no_faster),
+        cmocka_unit_test(pixel_within_a_cell_has_all_of_it),
+        cmocka_unit_test(share_of_a_cell_agrees_with_points),
+        cmocka_unit_test(hashes_are_those_of_the_renderers),
         cmocka_unit_test(slopes_follow_their_weighting),
+        cmocka_unit_test(part_of_a_rough_facet_that_meets_the_light_agrees_with_quadrature),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

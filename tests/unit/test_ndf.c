@@ -217,12 +217,66 @@ static void fresnel_agrees_with_complex_arithmetic(void **state)
     assert_true(fresnel_schlick(1.0F, 0.04F, 1.0F) == 0.04F && fresnel_schlick(0.0F, 0.04F, 1.0F) == 1.0F);
 }
 
+/* Of a circle of radius s around a point at distance d from the middle of the unit disk, the part within the disk. */
+static double part_within(double s, double d)
+{
+    if (s <= 1.0 - d)
+        return 1.0;
+    if (s >= 1.0 + d || s <= d - 1.0)
+        return 0.0;
+    return acos(fmax(-1.0, fmin(1.0, (d * d + s * s - 1.0) / (2.0 * d * s)))) / PI;
+}
+
+/* (integral of l)^2 / integral of l^2 for the unit disk, l the mass within it of a lobe around each point of the plane:
+ * by radius of the lobe, in equal shares of its mass, and by distance from the middle. */
+static double exact_lit_solid_angle(ndf_kind kind, double alpha)
+{
+    enum { SHARES = 700, STEPS = 900 };
+    double whole = 0.0, squared = 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        const double u = (i + 0.5) / STEPS, wide = 1.0 + alpha, d = wide * u / (1.0 - u);
+        const double ring = 2.0 * PI * d * wide / ((1.0 - u) * (1.0 - u)) / STEPS;
+        double mass = 0.0;
+        for (int k = 0; k < SHARES; k++) {
+            const double share = (k + 0.5) / SHARES;
+            const double s2 = kind == NDF_GGX ? share / (1.0 - share) : -log1p(-share);
+            mass += part_within(alpha * sqrt(s2), d) / SHARES;
+        }
+        whole += mass * ring;
+        squared += mass * mass * ring;
+    }
+    return whole * whole / squared;
+}
+
+/* The quadrature itself is good to 1e-3 where the lobe's shares are coarser than the disk, far better elsewhere. */
+static void lit_solid_angle_agrees_with_quadrature(void **state)
+{
+    (void)state;
+    static const double alphas[] = { 0.01, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0 };
+    for (int kind = NDF_GGX; kind <= NDF_BECKMANN; kind++)
+        for (size_t i = 0; i < sizeof(alphas) / sizeof(alphas[0]); i++) {
+            /* The unit disk scaled to a radius of .02. */
+            const double r = 0.02, exact = exact_lit_solid_angle((ndf_kind)kind, alphas[i]) * r * r;
+            const double got = (double)ndf_lit_solid_angle((ndf_kind)kind, (float)(PI * r * r), (float)(alphas[i] * r));
+            if (fabs(got / exact - 1.0) > 4e-3)
+                fail_msg("%s, lobe %g times the disk: %g, expected %g", kind == NDF_GGX ? "GGX" : "Beckmann", alphas[i],
+                         got, exact);
+        }
+    assert_true(ndf_lit_solid_angle(NDF_GGX, 0.125F, 0.0F) == 0.125F);
+    assert_true(fabs((double)ndf_lit_solid_angle(NDF_GGX, 0.0F, 0.1F) - 0.03 * PI) < 1e-7);
+    assert_true(fabs((double)ndf_lit_solid_angle(NDF_BECKMANN, 0.0F, 0.1F) - 0.02 * PI) < 1e-7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(density_agrees_with_slope_density),  cmocka_unit_test(masking_agrees_with_lambda),
-        cmocka_unit_test(total_area_agrees_with_quadrature),  cmocka_unit_test(smallest_roughness_stays_finite),
-        cmocka_unit_test(visible_normals_have_their_density), cmocka_unit_test(fresnel_agrees_with_complex_arithmetic),
+        cmocka_unit_test(density_agrees_with_slope_density),
+        cmocka_unit_test(masking_agrees_with_lambda),
+        cmocka_unit_test(total_area_agrees_with_quadrature),
+        cmocka_unit_test(smallest_roughness_stays_finite),
+        cmocka_unit_test(visible_normals_have_their_density),
+        cmocka_unit_test(fresnel_agrees_with_complex_arithmetic),
+        cmocka_unit_test(lit_solid_angle_agrees_with_quadrature),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

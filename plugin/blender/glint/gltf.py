@@ -8,7 +8,7 @@ import traceback
 
 import bpy
 
-from . import extension
+from . import area_lights, extension
 
 # What a hook could not do, newest last; the panel shows it.
 problems = []
@@ -60,7 +60,12 @@ class glTF2ExportUserExtension:
 
     @_guarded
     def gather_node_hook(self, gltf2_node, blender_object, export_settings):
-        if getattr(blender_object, "type", None) != "LIGHT" or not gltf2_node.extensions:
+        if getattr(blender_object, "type", None) != "LIGHT":
+            return
+        if gltf2_node.extensions is None:
+            gltf2_node.extensions = {}
+        if blender_object.data.type == "AREA":
+            gltf2_node.extensions[area_lights.NAME] = area_lights.of_light(blender_object.data)
             return
         punctual = gltf2_node.extensions.get("KHR_lights_punctual")
         if punctual is None:
@@ -71,7 +76,7 @@ class glTF2ExportUserExtension:
 
 class glTF2ImportUserExtension:
     def __init__(self):
-        self.extensions = [_made_extension(extension.NAME, {})]
+        self.extensions = [_made_extension(extension.NAME, {}), _made_extension(area_lights.NAME, {})]
 
     @_guarded
     def gather_import_material_after_hook(self, gltf_material, vertex_color, blender_mat, gltf):
@@ -81,7 +86,12 @@ class glTF2ImportUserExtension:
 
     @_guarded
     def gather_import_node_after_hook(self, vnode, gltf_node, blender_object, gltf):
-        punctual = (gltf_node.extensions or {}).get("KHR_lights_punctual")
+        extensions = gltf_node.extensions or {}
+        area = extensions.get(area_lights.NAME)
+        if area is not None:
+            lights = gltf.data.extensions[area_lights.NAME]["lights"]
+            area_lights.add(lights[area["light"]], blender_object, gltf)
+        punctual = extensions.get("KHR_lights_punctual")
         if punctual is None:
             return
         light = gltf.data.extensions["KHR_lights_punctual"]["lights"][punctual["light"]]
