@@ -32,9 +32,7 @@ const char *arguments_model_choice(int index)
 {
     if (index == 0)
         return "auto";
-    /* The example model, the last, needs a normal map, and scenes bring it none yet. */
-    const glint_model model = (glint_model)(index - 1);
-    return model == GLINT_MODEL_EXAMPLE ? NULL : glint_model_name(model);
+    return glint_model_name((glint_model)(index - 1));
 }
 
 static int wrong(const argument_syntax *syntax, const char *format, va_list list)

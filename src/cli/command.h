@@ -13,6 +13,7 @@ enum { COMMAND_DONE = 0, COMMAND_BAD_INPUT = 1, COMMAND_WRONG_USAGE = 2 };
 int command_render(int argc, char **argv);
 int command_compare(int argc, char **argv);
 int command_eval(int argc, char **argv);
+int command_example(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_export_gltf(int argc, char **argv);
 int command_inspect(int argc, char **argv);

@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/eval_query.h"
+#include "io/example_map.h"
 #include "io/scene_file.h"
 #include "scene/surface.h"
 
@@ -23,7 +24,7 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_TEXT,
       .target = offsetof(eval_values, material) },
     { .name = "model",
-      .help = "auto is counting where the material has glints",
+      .help = "auto is what the material asks for: example, dictionary or counting",
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = offsetof(eval_values, model) },
@@ -52,18 +53,23 @@ static glint_material *open_material(const eval_values *values, report *r)
         scene_free(&s);
         return NULL;
     }
-    const bool automatic = values->model == 0;
-    glint_material_options options =
-        scene_base_options(&m, automatic ? GLINT_MODEL_COUNTING : (glint_model)(values->model - 1));
-    const scene_texels texels = scene_texels_of(&m);
-    options.surface = scene_base_surface(&m, &texels);
+    const glint_model model = values->model == 0 ? scene_model_of(&m.glint) : (glint_model)(values->model - 1);
+    glint_material_options options = scene_base_options(&m, model);
+    float *normals = NULL;
     if (m.glint.present && m.glint.layer == SCENE_LAYER_CLEARCOAT)
         report_warning(r, "%s: the glints are in the clear coat, and eval answers for the base layer",
                        values->material);
+    if (options.model == GLINT_MODEL_EXAMPLE && m.glint.structure != SCENE_STRUCTURE_EXAMPLE)
+        report_warning(r,
+                       "%s: has no glintExampleTexture for the example model; 16 x 16 flat facets that follow its "
+                       "roughness stand in",
+                       values->material);
     glint_material *material = NULL;
     char message[256] = "";
-    if (glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
+    if ((options.model != GLINT_MODEL_EXAMPLE || example_map_open(&s, &m.glint, &options, &normals, r)) &&
+        glint_material_create(&options, &material, message, sizeof message) != GLINT_OK)
         report_error(r, "%s: %s", values->material, message);
+    free(normals);
     free(m.name);
     scene_free(&s);
     return material;

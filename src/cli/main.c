@@ -15,6 +15,7 @@ static const struct subcommand {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
     { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },
+    { "example", "write a built-in normal map of the example model", command_example },
     { "export", "write a scene for other programs: glTF", command_export },
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "validate", "check the glint materials of glTF files and presets", command_validate },

@@ -20,6 +20,13 @@ static const char *on_or_off(int index)
     return index == 0 ? "on" : index == 1 ? "off" : NULL;
 }
 
+/* In the order of preview_facets. */
+const char *render_facets_name(int index)
+{
+    static const char *const names[] = { "own", "cycles", "povray", NULL };
+    return names[index];
+}
+
 static const argument_rule rules[] = {
     { .name = "output",
       .letter = 'o',
@@ -54,6 +61,11 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = AT(model) },
+    { .name = "facets",
+      .help = "own: of equal area; or those that another renderer draws",
+      .kind = ARGUMENT_CHOICE,
+      .choice = render_facets_name,
+      .target = AT(facets) },
     { .name = "material",
       .value = "NAME=PRESET",
       .help = "replace a material of the file, or all (*); repeatable",
@@ -232,6 +244,7 @@ static bool render_scene(const scene *s, render_record *record, const atomic_boo
     options.threads = (int)v->threads;
     options.seed = (uint32_t)v->seed;
     options.model = v->model + PREVIEW_MODEL_AUTO;
+    options.facets = (preview_facets)v->facets;
     options.aov = v->aov;
     options.progress = progress_update;
     options.user = &bar;

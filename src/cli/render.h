@@ -12,6 +12,7 @@ typedef struct render_values {
     int64_t size[2], tile[4]; /* tile: x, y, width, height; width 0: the whole picture */
     int64_t spp, threads, seed, bounces;
     int model;          /* see arguments_model_choice */
+    int facets;         /* a preview_facets */
     double exposure_ev; /* NAN: not given */
     const char *environment;
     double environment_rotation_deg, environment_exposure_ev; /* NAN: not given */
@@ -41,6 +42,9 @@ bool render_light_begin(const render_values *v, render_light *light, preview_opt
 void render_light_end(render_light *light);
 
 /* ---- render_record.c ---- */
+
+/* The choices of --facets, in the order of preview_facets. */
+const char *render_facets_name(int index);
 
 /* Writes the picture with the settings that its pixels depend on as metadata: no time, no place, no number of threads,
  * so that the same command gives the same bytes anywhere. */

@@ -56,6 +56,7 @@ static bool write_exr(const render_record *record, const image *picture, report 
     const image_text metadata[] = {
         { "glint:version", glint_version() },
         { "glint:model", arguments_model_choice(v->model) },
+        { "glint:facets", render_facets_name(v->facets) },
         { "glint:size", size },
         { "glint:tile", tile },
         { "glint:spp", spp },
@@ -115,6 +116,7 @@ int render_print_document(const render_record *record, document *warnings)
         document_set(d, "tile", integers(v->tile, 4));
     document_set_integer(d, "spp", (uint64_t)v->spp);
     document_set_text(d, "model", arguments_model_choice(v->model));
+    document_set_text(d, "facets", render_facets_name(v->facets));
     document_set_integer(d, "seed", (uint64_t)v->seed);
     document_set_integer(d, "bounces", (uint64_t)v->bounces);
     if (v->environment) {

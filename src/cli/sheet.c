@@ -116,6 +116,21 @@ static void show_anchor(const scene_glint *g, document *object)
         printf("  %-22s%u\n", "seed", g->seed);
 }
 
+static void show_example(const scene_glint *g, document *object)
+{
+    char length[32];
+    const bool scattered = g->example_placement == SCENE_PLACEMENT_SCATTERED;
+    show_text(object, "glint_example_placement", "normal map", scattered ? "scattered" : "tiled");
+    show_numbers(object, "glint_example_size_m", "side of the map", &g->example_size, 1, " (%s)",
+                 readable_length((double)g->example_size, length, sizeof length));
+    if (!scattered)
+        return;
+    show_numbers(object, "glint_example_rotation_variation_rad", "turned by", &g->example_rotation_variation, 1,
+                 " rad at most, either way");
+    show_numbers(object, "glint_example_scale_variation", "scaled by", &g->example_scale_variation, 1,
+                 " of the side at most, either way");
+}
+
 void sheet_show(const scene_material *m, document *object)
 {
     show_base(m, object);
@@ -127,5 +142,7 @@ void sheet_show(const scene_material *m, document *object)
     }
     show_numbers(object, "glint_factor", "glint factor", &g->factor, 1, " (0 smooth, 1 every facet counted)");
     show_facets(g, object);
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
+        show_example(g, object);
     show_anchor(g, object);
 }

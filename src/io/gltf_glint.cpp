@@ -49,6 +49,8 @@ void read_placement(const tinygltf::Value &extension, scene_glint *out)
     if (gltf_text(extension, "glintExamplePlacement", "tiled") == "scattered")
         out->example_placement = SCENE_PLACEMENT_SCATTERED;
     read_number(extension, "glintExampleSize", &out->example_size);
+    read_number(extension, "glintExampleRotationVariation", &out->example_rotation_variation);
+    read_number(extension, "glintExampleScaleVariation", &out->example_scale_variation);
 }
 
 } // namespace

@@ -116,7 +116,9 @@ schema glint_schema()
                choice("glintStructure", "flakes|example"),
                object("glintExampleTexture", texture_info_schema()),
                choice("glintExamplePlacement", "tiled|scattered"),
-               number_above("glintExampleSize", 0.0) },
+               number_above("glintExampleSize", 0.0),
+               number("glintExampleRotationVariation", 0.0, 3.1415927),
+               number("glintExampleScaleVariation", 0.0, 0.5) },
              {} };
 }
 

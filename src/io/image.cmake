@@ -4,6 +4,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO>=2.4)
 
 glint_folder(io_image
-  SOURCES environment_map.c image.c image_bytes.c image_srgb.c mipmap.c output_file.c srgb.c texture_transform.c image_oiio.cpp
+  SOURCES environment_map.c example_map.c image.c image_bytes.c image_srgb.c mipmap.c output_file.c srgb.c texture_transform.c
+    image_oiio.cpp
   SEES glint.h scene io)
 target_link_libraries(io_image_objects PUBLIC PkgConfig::OIIO)

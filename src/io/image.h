@@ -48,6 +48,9 @@ bool image_write_exr(const char *path, const image *i, const image_text *metadat
  * too. */
 bool image_write_png(const char *path, const image *i, float exposure_ev, report *r);
 
+/* Data, as a texture of normals is: RGB, row 0 on top, no colour space; the file has 8 or 16 bits. Atomic, too. */
+bool image_write_data_png(const char *path, int width, int height, int bits, const uint16_t *rgb, report *r);
+
 /* ---- textures ---- */
 
 typedef struct textures textures; /* all images of a scene, with mip levels, shared by all threads */

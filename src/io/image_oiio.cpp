@@ -356,6 +356,14 @@ bool image_write_png(const char *path, const image *i, float exposure_ev, report
     });
 }
 
+bool image_write_data_png(const char *path, int width, int height, int bits, const uint16_t *rgb, report *r)
+{
+    return guarded(path, r, [&] {
+        const OIIO::ImageSpec spec(width, height, 3, bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
+        return write_picture("png", spec, OIIO::TypeDesc::UINT16, rgb, path, r);
+    });
+}
+
 bool textures_open(const scene *s, textures **out, report *r)
 {
     *out = nullptr;

@@ -83,6 +83,8 @@ ordered_json describe_glint(const scene *s, const scene_glint &g)
     if (g.structure == SCENE_STRUCTURE_EXAMPLE) {
         out["example_placement"] = g.example_placement == SCENE_PLACEMENT_TILED ? "tiled" : "scattered";
         out["example_size_m"] = rounded(g.example_size);
+        out["example_rotation_variation_rad"] = rounded(g.example_rotation_variation);
+        out["example_scale_variation"] = rounded(g.example_scale_variation);
     }
     for (uint32_t i = 0; i < g.color_count; i++)
         out["colors"].push_back(rounded_array(g.colors[i]));

@@ -306,6 +306,27 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm_floor_ps((__m128)x);
 }
 
+#elif GLINT_LANES == 4 && defined(__SSE2__)
+
+static inline int any(vmask m)
+{
+    return _mm_movemask_ps((__m128)m) != 0;
+}
+
+static inline vfloat sqrt_f(vfloat x)
+{
+    return (vfloat)_mm_sqrt_ps((__m128)x);
+}
+
+/* Truncates and goes one down where that went up. From 2^23 on every float is whole. */
+static inline vfloat floor_f(vfloat x)
+{
+    const vfloat whole = to_float(to_int(x));
+    const vfloat down = whole - choose(less(x, whole), splat(1.0F), splat(0.0F));
+    const vmask small = float_from_bits(bits_of(x) & 0x7fffffffU) < 8388608.0F;
+    return choose(small, down, x);
+}
+
 #else
 
 static inline int any(vmask m)

@@ -4,7 +4,7 @@
  * f = F D_P(h) G / (4 cos_o cos_i) (Eq. 1), with D_P from example_density.c: P(s) / cos^4(h) of the density P of
  * slopes. G is Smith's for a Gaussian surface with the slopes' second moments.
  */
-#include "model/example.h"
+#include "model/example_density.h"
 
 #include "light/cap.h"
 #include "model/area_points.h"
@@ -92,7 +92,7 @@ static int find_footprint(const model_query *q, const example *e, example_footpr
     if (!q->footprint || !(q->solid_angle_sr > 0.0F) || !(q->surface->discreteness > 0.0F))
         return 0;
     const float side = side_of(q);
-    return side > 0.0F && example_footprint_of(e, q, side, f);
+    return side > 0.0F && lattice_footprint(&e->lattice, q, side, f);
 }
 
 static float footprint_area(const glint_footprint *f)
@@ -141,8 +141,9 @@ static void example_eval(const model_query *q, glint_value *value)
     const float overall = overall_density(e, slope, light);
     const float share = f.share * q->surface->discreteness;
     float mixed = overall;
-    if (share > 0.0F) {
-        const matrix2 l = e->from_lattice;
+    /* A slope that the whole surface does not have is under no footprint. */
+    if (share > 0.0F && overall > 0.0F) {
+        const matrix2 l = e->lattice.from_lattice;
         const float on_lattice[2] = { l.xx * slope[0] + l.yx * slope[1], l.xy * slope[0] + l.yy * slope[1] };
         const float widened = light * 0.5F * (l.xx * l.xx + l.xy * l.xy + l.yx * l.yx + l.yy * l.yy);
         const uint32_t seed = hash_full(q->material->options.seed * HASH_Y + q->footprint->seed * HASH_X);
@@ -245,20 +246,19 @@ static example *make_seeds(struct glint_material *material)
     while (2U << levels <= o->size)
         levels++;
     const example sized = { .size = o->size, .levels = levels };
-    const size_t texels = (size_t)o->size * o->size;
-    const size_t ranges = example_tiles_before(&sized, 0, EXAMPLE_LEAST_MAP_LEVEL);
-    example *e = allocate(material, sizeof(*e) + texels * sizeof(example_texel) + ranges * sizeof(slope_range));
+    const size_t quads = (size_t)o->size * o->size / 4;
+    const size_t tiles = example_tiles_before(&sized, 0, levels);
+    example *e = allocate(material, sizeof(*e) + quads * sizeof(example_quad) + tiles * sizeof(tile_slopes));
     if (!e)
         return NULL;
     *e = sized;
-    e->options = o;
-    e->texels = (example_texel *)(e + 1);
-    e->ranges = (slope_range *)(e->texels + texels);
-    for (uint32_t level = 0; level < levels; level++)
-        e->first_tile[level] =
-            example_tiles_before(e, level < EXAMPLE_LEAST_MAP_LEVEL ? 0 : EXAMPLE_LEAST_MAP_LEVEL, level);
-    e->from_lattice = o->placement == GLINT_EXAMPLE_TILED ? example_transform(o) : (matrix2){ 1.0F, 0.0F, 0.0F, 1.0F };
-    e->to_lattice = matrix2_inverse(e->from_lattice);
+    e->quads = (example_quad *)(e + 1);
+    e->slopes = (tile_slopes *)(e->quads + quads);
+    for (uint32_t level = 0; level < levels; level++) {
+        e->first_tile[level] = example_tiles_before(e, 0, level);
+        e->first_chain[level] = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, level);
+    }
+    lattice_make(&e->lattice, o);
     example_seed(e, &material->options);
     return e;
 }

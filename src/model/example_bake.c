@@ -60,18 +60,24 @@ static void seed_slopes(example *e, const glint_material_options *o)
 {
     const uint32_t count = e->size * e->size;
     for (uint32_t i = 0; i < count; i++) {
+        const uint32_t x = i % e->size, y = i / e->size;
+        example_quad *q = &e->quads[example_tile(e, 0, x / 2, y / 2)];
+        float slope[2];
         if (o->example.normals)
-            example_normal_slope(&o->example, i, e->texels[i].slope);
+            example_normal_slope(&o->example, i, slope);
         else
-            distributed_slope(o, shuffle(i, count), count, e->texels[i].slope);
-        e->texels[i].jacobian = (matrix2){ 0.0F, 0.0F, 0.0F, 0.0F };
+            distributed_slope(o, shuffle(i, count), count, slope);
+        for (int k = 0; k < 2; k++)
+            q->slope[k][(x & 1U) + 2U * (y & 1U)] = slope[k];
+        for (int k = 0; k < 4; k++)
+            q->jacobian[k][(x & 1U) + 2U * (y & 1U)] = 0.0F;
     }
 }
 
-/* The neighbour of texel i along an axis: around the edge where examples are tiled, up to it where they end there. */
+/* The neighbour of a texel along an axis: around the edge where examples are tiled, up to it where they end there. */
 static uint32_t neighbour(const example *e, uint32_t i, int step)
 {
-    if (e->options->placement == GLINT_EXAMPLE_TILED)
+    if (!e->lattice.is_scattered)
         return (i + (uint32_t)step) & (e->size - 1);
     return step < 0 ? (i > 0 ? i - 1 : 0) : (i + 1 < e->size ? i + 1 : i);
 }
@@ -82,20 +88,23 @@ static void seed_jacobians(example *e)
     const float per_unit = 0.5F * (float)e->size;
     for (uint32_t y = 0; y < e->size; y++)
         for (uint32_t x = 0; x < e->size; x++) {
-            const float *left = e->texels[y * e->size + neighbour(e, x, -1)].slope;
-            const float *right = e->texels[y * e->size + neighbour(e, x, 1)].slope;
-            const float *down = e->texels[neighbour(e, y, -1) * e->size + x].slope;
-            const float *up = e->texels[neighbour(e, y, 1) * e->size + x].slope;
-            e->texels[y * e->size + x].jacobian =
-                (matrix2){ per_unit * (right[0] - left[0]), per_unit * (up[0] - down[0]),
-                           per_unit * (right[1] - left[1]), per_unit * (up[1] - down[1]) };
+            example_quad *q = &e->quads[example_tile(e, 0, x / 2, y / 2)];
+            const example_texel left = example_texel_at(e, neighbour(e, x, -1), y);
+            const example_texel right = example_texel_at(e, neighbour(e, x, 1), y);
+            const example_texel down = example_texel_at(e, x, neighbour(e, y, -1));
+            const example_texel up = example_texel_at(e, x, neighbour(e, y, 1));
+            for (int k = 0; k < 2; k++) {
+                q->jacobian[2 * k][(x & 1U) + 2U * (y & 1U)] = per_unit * (right.slope[k] - left.slope[k]);
+                q->jacobian[2 * k + 1][(x & 1U) + 2U * (y & 1U)] = per_unit * (up.slope[k] - down.slope[k]);
+            }
         }
 }
 
 /* sigma_h^2 J J^T: the slopes that one seed spreads over (Eq. 5, integrated over the place). */
 static covariance2 seed_spread(const example *e, const example_texel *t)
 {
-    return covariance2_mapped(t->jacobian, (covariance2){ e->seed_variance, 0.0F, e->seed_variance });
+    const float h = e->lattice.seed_variance;
+    return covariance2_mapped(t->jacobian, (covariance2){ h, 0.0F, h });
 }
 
 static const slope_range EMPTY = { { 1e30F, 1e30F }, { -1e30F, -1e30F } };
@@ -110,17 +119,33 @@ static void extend(slope_range *range, float x, float y, float reach_x, float re
 }
 
 /* Slopes of a tile's seeds, their spread over the place included. */
-static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uint32_t ty, float reach)
+static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uint32_t ty)
 {
     const uint32_t side = 2U << level;
     slope_range range = EMPTY;
     for (uint32_t y = ty * side; y < (ty + 1) * side; y++)
         for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
-            const example_texel *t = &e->texels[y * e->size + x];
-            const covariance2 c = seed_spread(e, t);
-            extend(&range, t->slope[0], t->slope[1], reach * sqrtf(c.xx), reach * sqrtf(c.yy));
+            const example_texel t = example_texel_at(e, x, y);
+            const covariance2 c = seed_spread(e, &t);
+            extend(&range, t.slope[0], t.slope[1], SLOPE_REACH * sqrtf(c.xx), SLOPE_REACH * sqrtf(c.yy));
         }
     return range;
+}
+
+static tile_slopes slopes_of_tile(const example *e, uint32_t level, uint32_t tx, uint32_t ty)
+{
+    const uint32_t side = 2U << level;
+    slope_range range = EMPTY;
+    covariance2 most = { 0.0F, 0.0F, 0.0F };
+    for (uint32_t y = ty * side; y < (ty + 1) * side; y++)
+        for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
+            const example_texel t = example_texel_at(e, x, y);
+            const covariance2 c = seed_spread(e, &t);
+            extend(&range, t.slope[0], t.slope[1], 0.0F, 0.0F);
+            most.xx = c.xx > most.xx ? c.xx : most.xx;
+            most.yy = c.yy > most.yy ? c.yy : most.yy;
+        }
+    return (tile_slopes){ { range.low[0], range.low[1] }, { range.high[0], range.high[1] }, { most.xx, most.yy } };
 }
 
 static float width(const slope_range *r)
@@ -132,32 +157,31 @@ static float width(const slope_range *r)
 static float intrinsic_roughness(const example *e, const glint_material_options *o)
 {
     float sum = 0.0F;
-    for (uint32_t i = 0; i < e->size * e->size; i++)
-        sum += e->texels[i].slope[0] * e->texels[i].slope[0] + e->texels[i].slope[1] * e->texels[i].slope[1];
+    for (uint32_t i = 0; i < e->size * e->size; i++) {
+        const example_texel t = example_texel_at(e, i % e->size, i / e->size);
+        sum += t.slope[0] * t.slope[0] + t.slope[1] * t.slope[1];
+    }
     const float rms = sqrtf(sum / (float)(e->size * e->size));
     /* A sixth: 36 spots across a Gaussian distribution, which the eye still tells apart (taste). */
     const float sigma = o->example.sigma_r > 0.0F ? o->example.sigma_r : rms / 6.0F;
-    const slope_range all = tile_range(e, e->levels - 1, 0, 0, SLOPE_REACH);
+    const slope_range all = tile_range(e, e->levels - 1, 0, 0);
     const float least = width(&all) / SLOPE_CELLS;
     return sigma > least ? (sigma > 1e-3F ? sigma : 1e-3F) : (least > 1e-3F ? least : 1e-3F);
 }
 
 void example_seed(example *e, const glint_material_options *o)
 {
-    const float sigma_h = o->example.sigma_h / (float)e->size;
-    e->seed_variance = sigma_h * sigma_h;
     seed_slopes(e, o);
     if (o->example.normals && !o->example.flat)
         seed_jacobians(e);
     const float sigma_r = intrinsic_roughness(e, o);
     /* A Beckmann lobe of roughness alpha has slopes of variance alpha^2 / 2. */
     e->slope_variance = sigma_r * sigma_r + 0.5F * o->facet_alpha * o->facet_alpha;
-    slope_range *range = e->ranges;
-    for (uint32_t level = 0; level < EXAMPLE_LEAST_MAP_LEVEL; level++)
+    tile_slopes *tile = e->slopes;
+    for (uint32_t level = 0; level < e->levels; level++)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++)
-                /* Below a small footprint the mean slope moves by up to another reach. */
-                *range++ = tile_range(e, level, x, y, 1.5F * SLOPE_REACH);
+                *tile++ = slopes_of_tile(e, level, x, y);
 }
 
 /* ---- the whole surface ---- */
@@ -195,11 +219,13 @@ static void overall_seed(overall_pass *p, const float slope[2], covariance2 spre
 static void overall_tiled(overall_pass *p)
 {
     const example *e = p->e;
-    for (int m = 0; m < (e->options->mirror ? 4 : 1); m++) {
-        const matrix2 mirror = { m & 1 ? -1.0F : 1.0F, 0.0F, 0.0F, m & 2 ? -1.0F : 1.0F };
-        const matrix2 to_local = matrix2_product(mirror, e->to_lattice);
-        for (uint32_t i = 0; i < e->size * e->size; i++)
-            overall_seed(p, e->texels[i].slope, seed_spread(e, &e->texels[i]), to_local);
+    /* The first four variants are the four mirrored ones. */
+    for (int m = 0; m < (e->lattice.is_alike ? 1 : 4); m++) {
+        const matrix2 to_local = matrix2_product(e->lattice.variants[m].to_local, e->lattice.to_lattice);
+        for (uint32_t i = 0; i < e->size * e->size; i++) {
+            const example_texel t = example_texel_at(e, i % e->size, i / e->size);
+            overall_seed(p, t.slope, seed_spread(e, &t), to_local);
+        }
     }
 }
 
@@ -211,7 +237,8 @@ static void overall_scattered(overall_pass *p)
     for (uint32_t cell = 0; cell < PATCH_CELLS * PATCH_CELLS; cell++) {
         instance near[AROUND * AROUND];
         for (int k = 0; k < AROUND * AROUND; k++)
-            near[k] = example_instance(e, cell % PATCH_CELLS, cell / PATCH_CELLS, k % AROUND - 2, k / AROUND - 2, 0U);
+            near[k] = lattice_instance(&e->lattice, cell % PATCH_CELLS, cell / PATCH_CELLS, k % AROUND - 2,
+                                       k / AROUND - 2, 0U);
         for (int i = 0; i < PATCH_POINTS * PATCH_POINTS; i++) {
             /* Skewed from row to row, so that points do not fall on the same texels everywhere. */
             const uint32_t bits = hash_full(cell * HASH_X + (uint32_t)i * HASH_Y);
@@ -229,13 +256,14 @@ static void overall_scattered(overall_pass *p)
             }
             const matrix2 unit = { 1.0F, 0.0F, 0.0F, 1.0F };
             if (owner) {
-                const float dx = x - owner->x, dy = y - owner->y, n = (float)e->size;
-                const float a = owner->to_local.xx * dx + owner->to_local.xy * dy + 0.5F;
-                const float b = owner->to_local.yx * dx + owner->to_local.yy * dy + 0.5F;
-                const uint32_t tx = a * n < n - 1.0F ? (uint32_t)(a * n) : e->size - 1;
-                const uint32_t ty = b * n < n - 1.0F ? (uint32_t)(b * n) : e->size - 1;
-                const example_texel *t = &e->texels[ty * e->size + tx];
-                overall_seed(p, t->slope, seed_spread(e, t), owner->to_local);
+                const float n = (float)e->size;
+                float a, b;
+                instance_local(owner, x, y, &a, &b);
+                a = (a + 0.5F) * n;
+                b = (b + 0.5F) * n;
+                const example_texel t = example_texel_at(e, a < n - 1.0F ? (uint32_t)a : e->size - 1,
+                                                         b < n - 1.0F ? (uint32_t)b : e->size - 1);
+                overall_seed(p, t.slope, seed_spread(e, &t), owner->as.to_local);
             } else {
                 const float flat[2] = { 0.0F, 0.0F };
                 overall_seed(p, flat, (covariance2){ 0.0F, 0.0F, 0.0F }, unit);
@@ -246,10 +274,10 @@ static void overall_scattered(overall_pass *p)
 
 static void overall_seeds(overall_pass *p)
 {
-    if (p->e->options->placement == GLINT_EXAMPLE_TILED)
-        overall_tiled(p);
-    else
+    if (p->e->lattice.is_scattered)
         overall_scattered(p);
+    else
+        overall_tiled(p);
 }
 
 /* ---- maps ---- */
@@ -261,7 +289,7 @@ size_t example_place_maps(example *e)
     for (uint32_t level = EXAMPLE_LEAST_MAP_LEVEL; level < e->levels; level++)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++) {
-                const slope_range range = tile_range(e, level, x, y, SLOPE_REACH);
+                const slope_range range = tile_range(e, level, x, y);
                 slope_maps_place(&e->tiles, chain++, &range, &codes);
             }
     overall_pass p = { e, NULL, EMPTY, 1e30F };
@@ -280,10 +308,10 @@ static void fill_tile(example *e, uint32_t level, uint32_t tx, uint32_t ty, uint
     const float variance = e->slope_variance;
     for (uint32_t y = ty * side; y < (ty + 1) * side; y++)
         for (uint32_t x = tx * side; x < (tx + 1) * side; x++) {
-            const example_texel *t = &e->texels[y * e->size + x];
-            const covariance2 c = seed_spread(e, t);
+            const example_texel t = example_texel_at(e, x, y);
+            const covariance2 c = seed_spread(e, &t);
             slope_map_add(&e->tiles.maps[(size_t)chain * e->tiles.length], work,
-                          (slope_lobe){ t->slope[0], t->slope[1], c.xx + variance, c.xy, c.yy + variance, 1.0F });
+                          (slope_lobe){ t.slope[0], t.slope[1], c.xx + variance, c.xy, c.yy + variance, 1.0F });
         }
     slope_maps_encode(&e->tiles, chain, work);
 }

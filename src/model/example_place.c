@@ -1,5 +1,5 @@
 /* Where examples lie and how a pixel falls on them: Xing et al. 2024, sections 6.1 and 6.2, Eqs. 8 and 9. */
-#include "model/example.h"
+#include "model/example_place.h"
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
@@ -40,63 +40,99 @@ static matrix2 transform_of(float scale_x, float scale_y, float shear_x, float s
     return matrix2_product((matrix2){ c, -s, s, c }, (matrix2){ scale_x, shear_x, shear_y, scale_y });
 }
 
-matrix2 example_transform(const glint_example *o)
-{
-    return transform_of(o->scale[0], o->scale[1], o->shear[0], o->shear[1], o->rotation_rad);
-}
-
-float example_diagonal(matrix2 m)
+/* Longer diagonal of the unit square under a map. */
+static float diagonal(matrix2 m)
 {
     const float ax = m.xx + m.xy, ay = m.yx + m.yy, bx = m.xx - m.xy, by = m.yx - m.yy;
     const float a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
     return sqrtf(a2 > b2 ? a2 : b2);
 }
 
-/* Uniform in [-1, 1), another one for each index. */
-static float signed_uniform(uint32_t bits, uint32_t index)
+/* The larger singular value. */
+static float stretch(matrix2 m)
 {
-    return (float)(int32_t)hash_full(bits + index * HASH_Z) * 0x1p-31F;
+    const float d = matrix2_determinant(m);
+    const float half = 0.5F * (m.xx * m.xx + m.xy * m.xy + m.yx * m.yx + m.yy * m.yy);
+    return sqrtf(half + sqrtf(half > fabsf(d) ? (half - d) * (half + d) : 0.0F));
 }
 
-instance example_instance(const example *e, uint32_t i, uint32_t j, int offset_i, int offset_j, uint32_t seed)
+/* In [-1, 1): number k of a series that fills it evenly, another series for each dimension. */
+static float signed_series(uint32_t k, uint32_t dimension)
 {
-    const glint_example *o = e->options;
+    return (float)(int32_t)(k * (HASH_X + 2U * dimension * HASH_Z) + hash_full(dimension)) * 0x1p-31F;
+}
+
+static matrix2 scattered_transform(const glint_example *o, uint32_t k)
+{
+    const float grow = o->scale_variation, lean = o->shear_variation;
+    return transform_of(o->scale[0] * (1.0F + grow * signed_series(k, 1)),
+                        o->scale[1] * (1.0F + grow * signed_series(k, 2)), o->shear[0] + lean * signed_series(k, 3),
+                        o->shear[1] + lean * signed_series(k, 4),
+                        o->rotation_rad + o->rotation_variation_rad * signed_series(k, 0));
+}
+
+void lattice_make(lattice *l, const glint_example *o)
+{
+    const matrix2 unit = { 1.0F, 0.0F, 0.0F, 1.0F };
+    const matrix2 own = transform_of(o->scale[0], o->scale[1], o->shear[0], o->shear[1], o->rotation_rad);
+    const float sigma_h = o->sigma_h / (float)o->size;
+    l->is_scattered = o->placement == GLINT_EXAMPLE_SCATTERED;
+    l->is_alike = !l->is_scattered && !o->mirror;
+    l->jitter = l->is_scattered ? o->jitter : 0.0F;
+    l->seed_variance = sigma_h * sigma_h;
+    l->from_lattice = l->is_scattered ? unit : own;
+    l->to_lattice = matrix2_inverse(l->from_lattice);
+    l->most_radius = l->most_stretch = 0.0F;
+    for (uint32_t k = 0; k < LATTICE_VARIANTS; k++) {
+        variant *v = &l->variants[k];
+        matrix2 m = l->is_scattered ? scattered_transform(o, k) : unit;
+        if (o->mirror) {
+            const float mx = k & 1U ? -1.0F : 1.0F, my = k & 2U ? -1.0F : 1.0F;
+            m = (matrix2){ m.xx * mx, m.xy * my, m.yx * mx, m.yy * my };
+        }
+        const matrix2 back = matrix2_inverse(m);
+        *v =
+            (variant){ m,
+                       back,
+                       0.5F * diagonal(m),
+                       { sqrtf(back.xx * back.xx + back.xy * back.xy), sqrtf(back.yx * back.yx + back.yy * back.yy) } };
+        l->most_radius = fmaxf(l->most_radius, v->radius);
+        l->most_stretch = fmaxf(l->most_stretch, stretch(m));
+    }
+}
+
+const variant *lattice_centre(const lattice *l, uint32_t i, uint32_t j, int offset_i, int offset_j, uint32_t seed,
+                              float *x, float *y)
+{
     const uint32_t bits =
         hash_full(hash_full((i + (uint32_t)offset_i) * HASH_X + seed) + (j + (uint32_t)offset_j) * HASH_Y);
+    *x = (float)offset_i + 0.5F;
+    *y = (float)offset_j + 0.5F;
+    if (l->jitter > 0.0F) {
+        const uint32_t place = hash_full(bits + HASH_Z);
+        *x += 0.5F * l->jitter * ((float)(place & 0xffffU) * 0x1p-15F - 1.0F);
+        *y += 0.5F * l->jitter * ((float)(place >> 16) * 0x1p-15F - 1.0F);
+    }
+    return &l->variants[bits % LATTICE_VARIANTS];
+}
+
+instance lattice_instance(const lattice *l, uint32_t i, uint32_t j, int offset_i, int offset_j, uint32_t seed)
+{
     instance n;
-    n.x = (float)offset_i + 0.5F;
-    n.y = (float)offset_j + 0.5F;
-    n.to_frame = (matrix2){ 1.0F, 0.0F, 0.0F, 1.0F };
-    if (o->placement == GLINT_EXAMPLE_SCATTERED) {
-        n.x += 0.5F * o->jitter * signed_uniform(bits, 1);
-        n.y += 0.5F * o->jitter * signed_uniform(bits, 2);
-        const float grow = o->scale_variation, lean = o->shear_variation;
-        n.to_frame =
-            transform_of(o->scale[0] * (1.0F + grow * signed_uniform(bits, 3)),
-                         o->scale[1] * (1.0F + grow * signed_uniform(bits, 4)),
-                         o->shear[0] + lean * signed_uniform(bits, 5), o->shear[1] + lean * signed_uniform(bits, 6),
-                         o->rotation_rad + o->rotation_variation_rad * signed_uniform(bits, 7));
-    }
-    if (o->mirror) {
-        const float mx = bits & 1U ? -1.0F : 1.0F, my = bits & 2U ? -1.0F : 1.0F;
-        n.to_frame = (matrix2){ n.to_frame.xx * mx, n.to_frame.xy * my, n.to_frame.yx * mx, n.to_frame.yy * my };
-    }
-    n.to_local = matrix2_inverse(n.to_frame);
-    n.radius = 0.5F * example_diagonal(n.to_frame);
+    n.as = *lattice_centre(l, i, j, offset_i, offset_j, seed, &n.x, &n.y);
     return n;
 }
 
 /* Brings the axes of the Gaussian within what evaluation looks at. */
-static float bound_spread(const example *e, double xx, double xy, double yy, covariance2 *bounded)
+static float bound_spread(const lattice *l, double xx, double xy, double yy, covariance2 *bounded)
 {
     const double half_sum = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
     const double radius = sqrt(half * half + xy * xy);
     const double major = sqrt(half_sum + radius), least = half_sum - radius;
     const double minor = least > 0.0 ? sqrt(least) : 0.0;
-    const int alike = e->options->placement == GLINT_EXAMPLE_TILED && !e->options->mirror;
-    const double most = alike ? MOST_SIGMA_ALIKE : MOST_SIGMA;
+    const double most = l->is_alike ? MOST_SIGMA_ALIKE : MOST_SIGMA;
     const double low = minor < most ? minor : most;
-    const double seed = sqrt((double)e->seed_variance);
+    const double seed = sqrt((double)l->seed_variance);
     double high = MOST_ASPECT * (low > seed ? low : seed);
     high = high < most ? high : most;
     high = major < high ? major : high;
@@ -107,7 +143,7 @@ static float bound_spread(const example *e, double xx, double xy, double yy, cov
     *bounded = (covariance2){ (float)(scale * xx + add), (float)(scale * xy), (float)(scale * yy + add) };
 
     double share;
-    if (alike) {
+    if (l->is_alike) {
         share = (ALIKE_FADE_END - minor) / (ALIKE_FADE_END - ALIKE_FADE_BEGIN);
     } else {
         /* n independent examples differ from their mean by 1 / sqrt(n): n' of them, weighted by sqrt(n' / n), differ as
@@ -126,7 +162,7 @@ static float split_cell(double x, uint32_t *cell)
     return (float)(x - whole);
 }
 
-int example_footprint_of(const example *e, const model_query *q, float side_m, example_footprint *f)
+int lattice_footprint(const lattice *l, const model_query *q, float side_m, example_footprint *f)
 {
     const glint_footprint *p = q->footprint;
     const double stretch = sqrt((double)q->material->options.elongation), to_cells = 1.0 / (double)side_m;
@@ -136,11 +172,11 @@ int example_footprint_of(const example *e, const model_query *q, float side_m, e
     const double area = fabs((double)p->dudx * (double)p->dvdy - (double)p->dudy * (double)p->dvdx);
     if (!(area > 1e-30))
         return 0;
-    const double txx = (double)e->to_lattice.xx, txy = (double)e->to_lattice.xy, tyx = (double)e->to_lattice.yx,
-                 tyy = (double)e->to_lattice.yy;
+    const double txx = (double)l->to_lattice.xx, txy = (double)l->to_lattice.xy, tyx = (double)l->to_lattice.yx,
+                 tyy = (double)l->to_lattice.yy;
     const double cx = txx * ax + txy * bx, cy = txx * ay + txy * by; /* lattice units per pixel */
     const double dx = tyx * ax + tyy * bx, dy = tyx * ay + tyy * by;
-    f->share = bound_spread(e, PIXEL_VARIANCE * (cx * cx + cy * cy), PIXEL_VARIANCE * (cx * dx + cy * dy),
+    f->share = bound_spread(l, PIXEL_VARIANCE * (cx * cx + cy * cy), PIXEL_VARIANCE * (cx * dx + cy * dy),
                             PIXEL_VARIANCE * (dx * dx + dy * dy), &f->spread);
 
     /* Every seed starts its lattice somewhere else, so that a place has no colour of its own. */

@@ -14,6 +14,9 @@
 /* The widest blur, in slopes: a light of half the sky. */
 #define WIDEST_VARIANCE 4.0F
 
+/* Less of a map than this is left out of a blend (cost). */
+#define LEAST_BLEND 0.02F
+
 uint32_t slope_chain_length(float variance)
 {
     uint32_t length = 1;
@@ -171,31 +174,55 @@ static float map_density(const slope_maps *maps, const slope_map *m, float x, fl
     const int i = (int)(cx + 1.0F) - 1, j = (int)(cy + 1.0F) - 1;
     const float fx = cx - (float)i, fy = cy - (float)j;
     const uint8_t *codes = maps->codes + m->first;
-    float corner[2][2];
-    for (int b = 0; b < 2; b++)
-        for (int a = 0; a < 2; a++) {
-            const int inside = i + a >= 0 && i + a < m->columns && j + b >= 0 && j + b < m->rows;
-            const int code = inside ? codes[(j + b) * m->columns + i + a] : 0;
-            corner[b][a] = (float)(code * code);
+    /* The four around it, in the order of rows; beyond the edge they are zero. */
+    int code[4] = { 0, 0, 0, 0 };
+    if (i >= 0 && j >= 0 && i + 1 < m->columns && j + 1 < m->rows) {
+        const uint8_t *c = codes + j * m->columns + i;
+        code[0] = c[0];
+        code[1] = c[1];
+        code[2] = c[m->columns];
+        code[3] = c[m->columns + 1];
+    } else {
+        for (int k = 0; k < 4; k++) {
+            const int a = i + (k & 1), b = j + (k >> 1);
+            if (a >= 0 && a < m->columns && b >= 0 && b < m->rows)
+                code[k] = codes[b * m->columns + a];
         }
-    const float low = corner[0][0] + fx * (corner[0][1] - corner[0][0]);
-    const float high = corner[1][0] + fx * (corner[1][1] - corner[1][0]);
+    }
+    if ((code[0] | code[1] | code[2] | code[3]) == 0)
+        return 0.0F;
+    const float left = (float)(code[0] * code[0]), above = (float)(code[2] * code[2]);
+    const float low = left + fx * ((float)(code[1] * code[1]) - left);
+    const float high = above + fx * ((float)(code[3] * code[3]) - above);
     return m->scale * (low + fy * (high - low));
+}
+
+slope_blend slope_maps_blend(const slope_maps *maps, float variance)
+{
+    const float ratio = variance / maps->variance;
+    if (!(ratio > 1.0F))
+        return (slope_blend){ 0, 0, 1.0F };
+    const uint32_t b = (uint32_t)exponent_of(ratio);
+    if (b + 1 >= maps->length)
+        return (slope_blend){ maps->length - 1, maps->length - 1, 1.0F };
+    /* Between variances 1 and 2 the blend that has the peak of the Gaussian in between: w + (1 - w) / 2 = 1 / ratio.
+     * Within two hundredths of one of them it is that one alone, which changes the peak by at most one hundredth. */
+    const float w = (2.0F / mantissa_of(ratio) - 1.0F - LEAST_BLEND) / (1.0F - 2.0F * LEAST_BLEND);
+    return (slope_blend){ b, b + 1, w > 0.0F ? (w < 1.0F ? w : 1.0F) : 0.0F };
+}
+
+float slope_maps_blended(const slope_maps *maps, uint32_t chain, const slope_blend *blend, float x, float y)
+{
+    const slope_map *m = &maps->maps[(size_t)chain * maps->length];
+    const float w = blend->weight;
+    const float narrow_part = w > 0.0F ? w * map_density(maps, m + blend->narrow, x, y) : 0.0F;
+    return narrow_part + (w < 1.0F ? (1.0F - w) * map_density(maps, m + blend->wide, x, y) : 0.0F);
 }
 
 float slope_maps_density(const slope_maps *maps, uint32_t chain, float variance, float x, float y)
 {
-    const slope_map *m = &maps->maps[(size_t)chain * maps->length];
-    const float ratio = variance / maps->variance;
-    if (!(ratio > 1.0F))
-        return map_density(maps, m, x, y);
-    const uint32_t b = (uint32_t)exponent_of(ratio);
-    if (b + 1 >= maps->length)
-        return map_density(maps, m + maps->length - 1, x, y);
-    /* Between variances 1 and 2 the blend that has the peak of the Gaussian in between: w + (1 - w) / 2 = 1 / ratio. */
-    const float w = 2.0F / mantissa_of(ratio) - 1.0F;
-    const float narrow_part = w > 0.0F ? w * map_density(maps, m + b, x, y) : 0.0F;
-    return narrow_part + (w < 1.0F ? (1.0F - w) * map_density(maps, m + b + 1, x, y) : 0.0F);
+    const slope_blend blend = slope_maps_blend(maps, variance);
+    return slope_maps_blended(maps, chain, &blend, x, y);
 }
 
 static uint32_t row_sum(const slope_maps *maps, const slope_map *map, int row)

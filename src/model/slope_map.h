@@ -62,7 +62,17 @@ void slope_map_add(const slope_map *map, float *density, slope_lobe lobe);
 /* Widens and encodes the density into the maps of a chain; each integrates to one. Leaves work zero. */
 void slope_maps_encode(slope_maps *maps, uint32_t chain, float *work);
 
-/* Density of the slope (x, y), blurred to this variance, at least that of the maps. */
+/* Two neighbours of a chain and the weight of the narrower, 0 to 1: what stands for a variance. */
+typedef struct slope_blend {
+    uint32_t narrow, wide;
+    float weight;
+} slope_blend;
+
+/* For a variance of at least that of the maps. */
+slope_blend slope_maps_blend(const slope_maps *maps, float variance);
+float slope_maps_blended(const slope_maps *maps, uint32_t chain, const slope_blend *blend, float x, float y);
+
+/* Density of the slope (x, y), blurred to this variance: both in one. */
 float slope_maps_density(const slope_maps *maps, uint32_t chain, float variance, float x, float y);
 
 /* Sums of squared codes below each row of a map, of rows + 1 entries. */

@@ -181,6 +181,24 @@ void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2]
     }
 }
 
+void hit_texcoord_axes(const hit *h, int set, vec3 *s, vec3 *t)
+{
+    const float *const st = h->mesh->texcoord[set];
+    *s = *t = v3(0.0, 0.0, 0.0);
+    if (st == NULL)
+        return;
+    double e[2][2]; /* texture coordinates along the edges */
+    for (int k = 0; k < 2; k++)
+        for (int c = 0; c < 2; c++)
+            e[c][k] = (double)at_corner(h, st, 2, c + 1)[k] - (double)at_corner(h, st, 2, 0)[k];
+    /* The inverse of that matrix times the edges, but for its length. */
+    const double sign = e[0][0] * e[1][1] - e[0][1] * e[1][0] < 0.0 ? -1.0 : 1.0;
+    *s = v3_mad(v3_scale(h->edge[0], e[1][1] * sign), h->edge[1], -e[0][1] * sign);
+    *t = v3_mad(v3_scale(h->edge[1], e[0][0] * sign), h->edge[0], -e[1][0] * sign);
+    if (h->mesh->tangent != NULL && v3_dot(h->tangent, *s) > 0.9 * v3_length(*s))
+        *s = h->tangent;
+}
+
 vec3 hit_leave(const hit *h, vec3 from)
 {
     /* Embree sees the vertices, the transform and the ray in float: a few units in the last place of the largest number

@@ -41,6 +41,10 @@ hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction);
 /* d(s, t)/dx and /dy of a set of texture coordinates; zero where the mesh has none. */
 void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2], double dy[2]);
 
+/* Where a set of texture coordinates runs to, in world space and of any length: of the triangle, or along the mesh's
+ * tangents, which are smooth, where they say the same. Zero where the coordinates do not tell. */
+void hit_texcoord_axes(const hit *h, int set, vec3 *s, vec3 *t);
+
 /* Moves the start of a ray off the surface, to the viewer's side, by more than the rounding of single precision. */
 vec3 hit_leave(const hit *h, vec3 from);
 

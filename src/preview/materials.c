@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "io/example_map.h"
 #include "preview/preview.h"
 #include "scene/surface.h"
 
@@ -22,9 +23,16 @@ static void warn_of_unrendered(const scene *s, int index, const scene_glint *g, 
             r,
             "%s: materials/%d (\"%s\"): glintDensityVariation %g is not rendered by the %s model; the density is even",
             path, index, name_of(m), (double)g->density_variation, glint_model_name(model));
-    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
-        report_warning(r, "%s: materials/%d (\"%s\"): glintStructure \"example\" is rendered as \"flakes\"", path,
-                       index, name_of(m));
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE && model != GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): glintStructure \"example\" is not rendered by the %s model; flakes "
+                       "stand in for the normal map",
+                       path, index, name_of(m), glint_model_name(model));
+    if (g->structure != SCENE_STRUCTURE_EXAMPLE && model == GLINT_MODEL_EXAMPLE)
+        report_warning(r,
+                       "%s: materials/%d (\"%s\"): has no glintExampleTexture for the example model; 16 x 16 flat "
+                       "facets that follow its roughness stand in",
+                       path, index, name_of(m));
 }
 
 /* Glints that are laid out by texture coordinates need some. */
@@ -41,6 +49,35 @@ static void warn_of_missing_texcoords(const scene *s, scene_glint_layer layer, r
                            s->path != NULL ? s->path : "scene", mesh->name != NULL ? mesh->name : "a mesh", g->texcoord,
                            name_of(m));
     }
+}
+
+/* Those of another renderer: its hash of the cells of a flat grid. */
+static void choose_facets(preview_facets facets, glint_material_options *o)
+{
+    if (facets == PREVIEW_FACETS_OWN)
+        return;
+    o->weighting = GLINT_WEIGHTING_EQUAL_PROJECTED_AREA;
+    o->facet_hash = facets == PREVIEW_FACETS_POVRAY ? GLINT_FACET_HASH_POVRAY : GLINT_FACET_HASH_CYCLES;
+}
+
+/* One layer before its material is made. The normals are what options.example.normals points to. */
+typedef struct layer_plan {
+    glint_material_options options;
+    float *normals;
+} layer_plan;
+
+static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
+{
+    const scene *const s = all->scene;
+    const scene_material *const m = &s->materials[index];
+    const scene_glint *const g = scene_layer_glint(m, layer);
+    glint_model wanted = (glint_model)model;
+    if (model == PREVIEW_MODEL_AUTO)
+        wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
+    warn_of_unrendered(s, index, g, wanted, r);
+    out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
+    choose_facets(all->facets, &out->options);
+    return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
 }
 
 static bool shows_facets(const glint_material *layer)
@@ -62,33 +99,39 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const scene *s, int index, glint_model model, material_layers *out, report *r)
+static bool make_layers(const materials *all, int index, int model, material_layers *out, report *r)
 {
-    const scene_material *const m = &s->materials[index];
-    const glint_material_options base = scene_base_options(m, model);
-    if (!(m->clearcoat > 0.0F))
-        return make(s, index, &base, out, r);
-    const glint_material_options coat = scene_coat_options(m, model);
-    glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
-    whole.model = GLINT_MODEL_LAYERED;
-    whole.layers.base = &base;
-    whole.layers.coat = &coat;
-    return make(s, index, &whole, out, r);
+    const scene *const s = all->scene;
+    const bool is_coated = s->materials[index].clearcoat > 0.0F;
+    layer_plan base = { 0 }, coat = { 0 };
+    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, &base, r) &&
+                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
+    if (done && is_coated) {
+        glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
+        whole.model = GLINT_MODEL_LAYERED;
+        whole.layers.base = &base.options;
+        whole.layers.coat = &coat.options;
+        done = make(s, index, &whole, out, r);
+    } else if (done) {
+        done = make(s, index, &base.options, out, r);
+    }
+    out->base_mapped = base.normals != NULL;
+    out->coat_mapped = coat.normals != NULL;
+    free(base.normals);
+    free(coat.normals);
+    return done;
 }
 
-bool materials_make(const scene *s, int model, materials *out, report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r)
 {
-    *out = (materials){ .scene = s };
+    *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
     out->layers = calloc(count, sizeof *out->layers);
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
-    const glint_model wanted = model == PREVIEW_MODEL_AUTO ? GLINT_MODEL_COUNTING : (glint_model)model;
     for (int i = 0; i < s->material_count; ++i) {
-        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_BASE), wanted, r);
-        warn_of_unrendered(s, i, scene_layer_glint(&s->materials[i], SCENE_LAYER_CLEARCOAT), wanted, r);
-        if (!make_layers(s, i, wanted, &out->layers[i], r)) {
+        if (!make_layers(out, i, model, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

@@ -2,6 +2,7 @@
 #ifndef PREVIEW_MATERIALS_H
 #define PREVIEW_MATERIALS_H
 
+#include "preview/preview.h"
 #include "scene/report.h"
 #include "scene/scene.h"
 
@@ -10,16 +11,18 @@ typedef struct material_layers {
     const glint_material *base;    /* of whole, or the same */
     const glint_material *coat;    /* of whole; NULL: there is no clear coat */
     bool base_counts, coat_counts; /* single facets show: the layer wants a footprint */
+    bool base_mapped, coat_mapped; /* a normal map shows: the layer wants a frame along u and v */
 } material_layers;
 
 typedef struct materials {
     const scene *scene;
+    preview_facets facets;
     material_layers *layers; /* scene->material_count */
 } materials;
 
-/* model: a glint_model, or PREVIEW_MODEL_AUTO: counting wherever the file asks for glints. Warns of what a material
- * asks for and no model of this version renders. */
-bool materials_make(const scene *s, int model, materials *out, report *r);
+/* model: a glint_model, or PREVIEW_MODEL_AUTO: for each material the one that shows what it asks for, see
+ * scene_model_of. Warns of what a material asks for and its model does not render. */
+bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r);
 void materials_free(materials *m);
 
 #endif

@@ -47,11 +47,20 @@ static int choose_plane(const double n[3], float choice)
     return target < weights[0] + weights[1] ? 1 : 2;
 }
 
-static glint_footprint place_on_planes(const hit *h, const hit_step *step, float choice, float *density_scale)
+/* The normal of the triangle in the object's axes. */
+static void flat_normal(const hit *h, double n[3])
 {
     const vec3 *const p = h->corners.position;
     const vec3 normal = v3_normalize(v3_cross(to_metres(h, v3_sub(p[1], p[0])), to_metres(h, v3_sub(p[2], p[0]))));
-    const double n[3] = { normal.x, normal.y, normal.z };
+    n[0] = normal.x;
+    n[1] = normal.y;
+    n[2] = normal.z;
+}
+
+static glint_footprint place_on_planes(const hit *h, const hit_step *step, float choice, float *density_scale)
+{
+    double n[3];
+    flat_normal(h, n);
     const int plane = choose_plane(n, choice);
 
     const vec3 at = to_metres(h, h->position_object);
@@ -73,11 +82,29 @@ static glint_footprint place_on_planes(const hit *h, const hit_step *step, float
                               .seed = seed_of(h, (uint32_t)plane + 1U) };
 }
 
+static bool is_in_texture_space(const scene_glint *g, const hit *h)
+{
+    return g->space == SCENE_SPACE_UV && h->mesh->texcoord[g->texcoord] != NULL;
+}
+
 glint_footprint place_footprint(const scene_glint *g, const hit *h, const hit_step *step, float choice,
                                 float *density_scale)
 {
     *density_scale = 1.0F;
-    if (g->space == SCENE_SPACE_UV && h->mesh->texcoord[g->texcoord] != NULL)
+    if (is_in_texture_space(g, h))
         return place_by_texcoord(g, h, step);
     return place_on_planes(h, step, choice, density_scale);
+}
+
+void place_axes(const scene_glint *g, const hit *h, float choice, vec3 *along_u, vec3 *along_v)
+{
+    if (is_in_texture_space(g, h)) {
+        hit_texcoord_axes(h, g->texcoord, along_u, along_v);
+        return;
+    }
+    double n[3];
+    flat_normal(h, n);
+    const int plane = choose_plane(n, choice);
+    *along_u = m4_column(h->placed->to_world, (plane + 1) % 3);
+    *along_v = m4_column(h->placed->to_world, (plane + 2) % 3);
 }

@@ -13,4 +13,7 @@
 glint_footprint place_footprint(const scene_glint *g, const hit *h, const hit_step *step, float choice,
                                 float *density_scale);
 
+/* Where u and v of that footprint run to, in world space and of any length; zero where the mesh does not say. */
+void place_axes(const scene_glint *g, const hit *h, float choice, vec3 *along_u, vec3 *along_v);
+
 #endif

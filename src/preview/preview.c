@@ -49,7 +49,8 @@ static bool check_options(const preview_options *o, report *r)
                             o->size, sizeof *o);
     if (!check_range("width", o->width, 1, LARGEST_SIDE, r) || !check_range("height", o->height, 1, LARGEST_SIDE, r) ||
         !check_range("spp", o->spp, 1, MOST_SAMPLES, r) || !check_range("bounces", o->bounces, 0, MOST_BOUNCES, r) ||
-        !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r))
+        !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r) ||
+        !check_range("facets", (int)o->facets, PREVIEW_FACETS_OWN, PREVIEW_FACETS_POVRAY, r))
         return false;
     if (o->threads < 0)
         return report_error(r, "preview: threads is %d; expected 0 (one a core) or more", o->threads);
@@ -147,7 +148,7 @@ static bool set_up(stage *st, const preview_options *o, preview_statistics *stat
         return false;
     set_sky(st, o);
     if (!camera_make(&view, o->width, o->height, &st->camera, r) || !set_lights(st, o, &view, r) ||
-        !materials_make(s, o->model, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+        !materials_make(s, o->model, o->facets, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r))
         return false;
     st->world.trace = st->trace;

@@ -11,6 +11,11 @@
 
 typedef enum preview_model { PREVIEW_MODEL_AUTO = -1 } preview_model; /* else a glint_model */
 
+/* Which facets there are. Those of another renderer are a flat grid of facets of equal projected area that the texture
+ * coordinates alone decide: model explicit then shows flake by flake what that renderer shows, and the other models its
+ * statistics. */
+typedef enum preview_facets { PREVIEW_FACETS_OWN, PREVIEW_FACETS_CYCLES, PREVIEW_FACETS_POVRAY } preview_facets;
+
 /* A sky that is a gradient in the height of the direction; radiance, linear RGB, y is up. */
 typedef struct preview_sky {
     float zenith[3], horizon[3], ground[3];
@@ -28,10 +33,11 @@ typedef struct preview_options {
     int width, height;                           /* pixels, [1, 65536] */
     int tile_x, tile_y, tile_width, tile_height; /* the part to render, inside the picture; width 0: all */
     int spp;                                     /* samples per pixel, [1, 65536]; powers of 4 are spread best */
-    int bounces;                /* of indirect light from surface to surface, [0, 64]; 0: lights and sky only */
-    int threads;                /* 0: one a core */
-    uint32_t seed;              /* of the sampling noise; the facets have the material's own */
-    int model;                  /* a glint_model for every material, or PREVIEW_MODEL_AUTO */
+    int bounces;   /* of indirect light from surface to surface, [0, 64]; 0: lights and sky only */
+    int threads;   /* 0: one a core */
+    uint32_t seed; /* of the sampling noise; the facets have the material's own */
+    int model;     /* a glint_model for every material, or PREVIEW_MODEL_AUTO */
+    preview_facets facets;
     const scene_camera *camera; /* NULL: the scene's first, or one framed around it */
     bool aov;                   /* the channels of --aov as well */
     /* From the calling thread, about ten times a second. */
@@ -45,8 +51,8 @@ typedef struct preview_options {
 
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
-        sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, 0, false, 0, 0, 0, 0, false,  \
-            0                                                                                                          \
+        sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, PREVIEW_FACETS_OWN, 0, false, \
+            0, 0, 0, 0, false, 0                                                                                       \
     }
 
 typedef struct preview_statistics {

@@ -137,6 +137,7 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
     shade_layer *const coat = &out->layers[out->layer_count++];
     coat->material = handles->coat;
     coat->counts = handles->coat_counts;
+    coat->mapped = handles->coat_mapped;
     coat->surface = scene_coat_surface(m, t);
     coat->weight = fminf(t->clearcoat, 1.0F);
     set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
@@ -148,8 +149,26 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
         out->emission[i] *= below[i];
 }
 
-static void place_glints(const hit *h, const hit_step *step, const scene_material *m, float choice, shade_point *out)
+/* Turns the frame so that x and y are those of a normal map, along u and v. Seen from behind, the normal has turned
+ * over and bumps are dents. */
+static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g, float choice, vec3 wo)
 {
+    vec3 u, v;
+    scene_forget_directions(&layer->surface);
+    place_axes(g, h, choice, &u, &v);
+    if (!(v3_dot(u, u) > 0.0))
+        return;
+    const double side = h->front ? 1.0 : -1.0;
+    set_frame(layer, layer->z, v3_scale(u, side), wo);
+    if (v3_dot(layer->y, v) * side < 0.0) {
+        layer->y = v3_scale(layer->y, -1.0);
+        layer->wo[1] = -layer->wo[1];
+    }
+}
+
+static void place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out)
+{
+    const scene_material *const m = &s->scene->materials[h->mesh->material];
     static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
     for (int i = 0; i < out->layer_count; ++i) {
         const scene_glint *const g = scene_layer_glint(m, of[i]);
@@ -157,7 +176,12 @@ static void place_glints(const hit *h, const hit_step *step, const scene_materia
             continue;
         float density_scale;
         out->layers[i].footprint = place_footprint(g, h, step, choice, &density_scale);
+        /* Other renderers know no objects' seeds: their facets hang on the texture coordinates alone. */
+        if (s->materials->facets != PREVIEW_FACETS_OWN)
+            out->layers[i].footprint.seed = 0U;
         out->layers[i].surface.facets_per_m2 *= density_scale;
+        if (out->layers[i].mapped)
+            align_to_map(&out->layers[i], h, g, choice, wo);
     }
 }
 
@@ -192,12 +216,13 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
     shade_layer *const base = &out->layers[out->layer_count++];
     base->material = handles->base;
     base->counts = handles->base_counts;
+    base->mapped = handles->base_mapped;
     base->surface = scene_base_surface(m, &t);
     base->weight = 1.0F;
     set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
     out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
-    place_glints(h, step, m, choice, out);
+    place_glints(s, h, step, choice, wo, out);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)

@@ -13,6 +13,7 @@ typedef struct shade_layer {
     float wo[3];  /* to the viewer, in that frame */
     float weight; /* of the coat: how much of the surface it covers. Of the base: about what the coat leaves of it */
     bool counts;  /* wants the footprint */
+    bool mapped;  /* shows a normal map: x lies along u and y along v, so that the frame may be left-handed */
     glint_footprint footprint;
 } shade_layer;
 

@@ -65,7 +65,8 @@ scene_texture scene_texture_none(void)
     return (scene_texture){ .image = SCENE_NONE, .scale = { 1.0F, 1.0F }, .strength = 1.0F };
 }
 
-/* The defaults of exporters/gltf/GLINT_materials_glint; the example's size is our choice: a tile of one centimetre. */
+/* The defaults of exporters/gltf/GLINT_materials_glint. The example's are our choice: a tile of one centimetre;
+ * scattered ones lie in every direction and differ in size by a fifth. */
 static scene_glint glint_default(void)
 {
     return (scene_glint){ .texture = scene_texture_none(),
@@ -78,7 +79,9 @@ static scene_glint glint_default(void)
                           .coverage = 1.0F,
                           .uv_scale = 1.0F,
                           .example_texture = scene_texture_none(),
-                          .example_size = 0.01F };
+                          .example_size = 0.01F,
+                          .example_rotation_variation = 3.1415927F,
+                          .example_scale_variation = 0.2F };
 }
 
 scene_material scene_material_default(void)

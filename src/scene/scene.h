@@ -70,7 +70,8 @@ typedef struct scene_glint {
     scene_glint_structure structure;
     scene_texture example_texture;
     scene_glint_placement example_placement;
-    float example_size; /* metres */
+    float example_size;                                        /* metres */
+    float example_rotation_variation, example_scale_variation; /* of scattered examples: rad, relative; either way */
 } scene_glint;
 
 typedef struct scene_material {

@@ -103,6 +103,18 @@ glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t)
     return s;
 }
 
+glint_model scene_model_of(const scene_glint *g)
+{
+    if (g->structure == SCENE_STRUCTURE_EXAMPLE)
+        return GLINT_MODEL_EXAMPLE;
+    return g->density_variation > 0.0F ? GLINT_MODEL_DICTIONARY : GLINT_MODEL_COUNTING;
+}
+
+void scene_forget_directions(glint_surface *s)
+{
+    s->alpha_x = s->alpha_y;
+}
+
 static glint_material_options layer_options(const scene_material *m, glint_model model, scene_glint_layer layer)
 {
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
@@ -124,6 +136,8 @@ static glint_material_options layer_options(const scene_material *m, glint_model
     }
     const scene_texels t = scene_texels_of(m);
     o.surface = layer == SCENE_LAYER_BASE ? scene_base_surface(m, &t) : scene_coat_surface(m, &t);
+    if (o.model == GLINT_MODEL_EXAMPLE && scene_layer_glint(m, layer)->structure == SCENE_STRUCTURE_EXAMPLE)
+        scene_forget_directions(&o.surface);
     return o;
 }
 

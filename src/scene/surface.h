@@ -28,6 +28,13 @@ glint_surface scene_base_surface(const scene_material *m, const scene_texels *t)
 /* The clear coat at a point: a dielectric of ior 1.5 over the base (KHR_materials_clearcoat), without its weight. */
 glint_surface scene_coat_surface(const scene_material *m, const scene_texels *t);
 
+/* The model that shows what a layer asks for: example for a normal map, dictionary for a density that varies, counting
+ * otherwise. */
+glint_model scene_model_of(const scene_glint *g);
+
+/* A map of normals has its own directions: of the roughness only the size counts, which stretches its slopes. */
+void scene_forget_directions(glint_surface *s);
+
 /* What is common to all points; model GLINT_MODEL_SMOOTH where the layer has no glints. Layers never share facets:
  * where both have glints the coat's seed is another even when the file says the same. */
 glint_material_options scene_base_options(const scene_material *m, glint_model model);

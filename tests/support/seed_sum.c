@@ -59,11 +59,15 @@ static int covers(const seed_instance *n, const double at[2])
     return fabs(m.xx * x + m.xy * y) <= 0.5 && fabs(m.yx * x + m.yy * y) <= 0.5;
 }
 
+/* Half the diagonal of the largest example that the library takes, and a bit. */
+static const double FARTHEST = 1.07;
+
 static int is_seen(const seed_instance *all, size_t count, size_t self, const double at[2])
 {
     const double own = hypot(at[0] - all[self].at[0], at[1] - all[self].at[1]);
     for (size_t k = 0; k < count; k++)
-        if (k != self && !all[k].is_ground &&
+        if (k != self && !all[k].is_ground && fabs(at[0] - all[k].at[0]) < FARTHEST &&
+            fabs(at[1] - all[k].at[1]) < FARTHEST &&
             (all[self].is_ground || hypot(at[0] - all[k].at[0], at[1] - all[k].at[1]) < own) && covers(&all[k], at))
             return 0;
     return 1;
@@ -97,6 +101,31 @@ seed_surface seed_surface_export(const glint_example *e, double sigma_r, const s
             s.seeds[s.count++] = g;
         }
     return s;
+}
+
+void seed_surface_slope(const glint_example *e, const seed_instance *instances, size_t count, const double at[2],
+                        double slope[2])
+{
+    const seed_instance *owner = NULL;
+    double best = 1e30;
+    for (size_t k = 0; k < count; k++) {
+        const double away = hypot(at[0] - instances[k].at[0], at[1] - instances[k].at[1]);
+        if (!instances[k].is_ground && away < best && covers(&instances[k], at)) {
+            best = away;
+            owner = &instances[k];
+        }
+    }
+    slope[0] = slope[1] = 0.0;
+    if (!owner)
+        return;
+    const seed_matrix back = inverse(owner->map), tilt = transposed(back);
+    const double dx = at[0] - owner->at[0], dy = at[1] - owner->at[1], n = e->size;
+    const int x = (int)fmin(fmax((back.xx * dx + back.xy * dy + 0.5) * n, 0.0), n - 1.0);
+    const int y = (int)fmin(fmax((back.yx * dx + back.yy * dy + 0.5) * n, 0.0), n - 1.0);
+    double own[2];
+    slope_of(e, x, y, own);
+    slope[0] = tilt.xx * own[0] + tilt.xy * own[1];
+    slope[1] = tilt.yx * own[0] + tilt.yy * own[1];
 }
 
 /* exp(-d^T C^-1 d / 2) / (2 pi sqrt(det C)) */

@@ -35,6 +35,10 @@ typedef struct seed_instance {
  * glint_example; for the ground 1 / size of a square is a texel. */
 seed_surface seed_surface_export(const glint_example *e, double sigma_r, const seed_instance *instances, size_t count);
 
+/* The slope of the surface at a place: that of the texel that is seen there. */
+void seed_surface_slope(const glint_example *e, const seed_instance *instances, size_t count, const double at[2],
+                        double slope[2]);
+
 /* The same sum for a part of them: density of the slope under the Gaussian footprint (covariance xx, xy, yy). */
 double seed_surface_density(const seed_surface *s, const double at[2], const double spread[3], const double slope[2],
                             double light_variance);

@@ -18,8 +18,8 @@ static seed_surface export_surface(const bench *b)
     size_t count = 0;
     for (int j = -AROUND; j <= AROUND; j++)
         for (int i = -AROUND; i <= AROUND; i++) {
-            const instance n = example_instance(e, CELL[0], CELL[1], i, j, SEED);
-            const matrix2 m = n.to_frame;
+            const instance n = lattice_instance(&e->lattice, CELL[0], CELL[1], i, j, SEED);
+            const matrix2 m = n.as.to_frame;
             instances[count++] = (seed_instance){ { (double)n.x, (double)n.y },
                                                   { (double)m.xx, (double)m.xy, (double)m.yx, (double)m.yy },
                                                   0 };
@@ -70,7 +70,7 @@ typedef struct outcome {
 static outcome compare(const bench *b, const seed_surface *s, double sigma, double aspect, double light)
 {
     const example *e = b->material.baked;
-    const double seed = sqrt((double)e->seed_variance), roughness = sqrt((double)e->slope_variance);
+    const double seed = sqrt((double)e->lattice.seed_variance), roughness = sqrt((double)e->slope_variance);
     uint64_t random = 1;
     moments square = { 0 }, value = { 0 };
     outcome o = { 0 };

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "model/example.h"
+#include "model/example_density.h"
 #include "statistics.h"
 
 static inline void *bench_allocate(size_t byte_count, void *user)

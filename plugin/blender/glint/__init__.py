@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Glints for Blender: metallic paint, craft glitter, snow and sand whose flakes sparkle one by one.
+
+One property group on the material says what the flakes are; the node graph for Cycles and EEVEE, the reference renders and
+glTF files are made from it.
+"""
+
+bl_info = {
+    "name": "Glint",
+    "description": "Materials made of discrete microfacets: glitter, metallic paint, snow, sand",
+    "author": "The libglint authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "Properties > Material > Glints",
+    "category": "Material",
+}
+
+import bpy
+
+from . import gltf, panel, presets, properties
+from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
+
+MODULES = (properties, presets, panel)
+
+
+def register():
+    for module in MODULES:
+        module.register()
+
+
+def unregister():
+    for module in reversed(MODULES):
+        module.unregister()

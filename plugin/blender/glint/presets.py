@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The presets of libglint: glTF materials that carry the extension, the same files that the glint command reads."""
+
+import json
+import os
+
+import bpy
+
+from . import extension, principled
+
+SUFFIX = ".gltf-material.json"
+
+
+def folders():
+    """Where presets are: the user's own, those in the add-on, and, in a checkout, those of the repository."""
+    here = os.path.dirname(os.path.realpath(__file__))
+    own = bpy.utils.user_resource("SCRIPTS", path=os.path.join("presets", "glint"))
+    return [own, os.path.join(here, "materials"), os.path.join(here, "..", "..", "..", "materials")]
+
+
+def available():
+    """Names of the presets and their files; a user's own comes before one of the same name."""
+    found = {}
+    for folder in reversed(folders()):
+        if os.path.isdir(folder):
+            for name in sorted(os.listdir(folder)):
+                if name.endswith(SUFFIX):
+                    found[name[: -len(SUFFIX)]] = os.path.join(folder, name)
+    return dict(sorted(found.items()))
+
+
+def _set(node, names, value):
+    for name in names:
+        if name in node.inputs:
+            node.inputs[name].default_value = value
+            return
+
+
+def apply(material, preset):
+    """Sets the Principled BSDF and the property group from a glTF material object."""
+    material.use_nodes = True
+    node = principled.find(material)
+    base = preset.get("pbrMetallicRoughness", {})
+    if node is not None:
+        _set(node, ("Base Color",), base.get("baseColorFactor", [1.0] * 4))
+        _set(node, ("Metallic",), base.get("metallicFactor", 1.0))
+        _set(node, ("Roughness",), base.get("roughnessFactor", 1.0))
+        coat = preset.get("extensions", {}).get("KHR_materials_clearcoat", {})
+        _set(node, ("Clearcoat", "Coat Weight"), coat.get("clearcoatFactor", 0.0))
+        _set(node, ("Clearcoat Roughness", "Coat Roughness"), coat.get("clearcoatRoughnessFactor", 0.0))
+    extension.apply(preset.get("extensions", {}).get(extension.NAME, {}), material.glint)
+
+
+def of_material(material):
+    """A glTF material object that apply() turns into this material again."""
+    node = principled.find(material)
+    preset = {"name": material.name}
+    if node is not None:
+        value = principled.input_value
+        preset["pbrMetallicRoughness"] = {
+            "baseColorFactor": [round(c, 6) for c in value(node, ("Base Color",), (1.0,) * 4)],
+            "metallicFactor": round(value(node, ("Metallic",), 0.0), 6),
+            "roughnessFactor": round(value(node, ("Roughness",), 0.5), 6),
+        }
+    preset["extensions"] = {extension.NAME: extension.from_values(material.glint)}
+    preset["extras"] = {"title": material.name, "note": "Saved from Blender."}
+    return preset
+
+
+class GLINT_OT_apply_preset(bpy.types.Operator):
+    bl_idname = "glint.apply_preset"
+    bl_label = "Apply Glint Preset"
+    bl_description = "Make this material what the preset says"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: bpy.props.StringProperty()
+
+    @classmethod
+    def poll(cls, context):
+        return getattr(context, "material", None) is not None
+
+    def execute(self, context):
+        path = available().get(self.name)
+        if path is None:
+            self.report({"ERROR"}, f"There is no preset '{self.name}'; there are: {', '.join(available())}")
+            return {"CANCELLED"}
+        try:
+            with open(path, encoding="utf-8") as file:
+                apply(context.material, json.load(file))
+        except (OSError, ValueError, TypeError) as problem:
+            self.report({"ERROR"}, f"{path}: {problem}")
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class GLINT_OT_save_preset(bpy.types.Operator):
+    bl_idname = "glint.save_preset"
+    bl_label = "Save as Glint Preset"
+    bl_description = "Keep this material under its name among the presets"
+
+    name: bpy.props.StringProperty(name="Name")
+
+    @classmethod
+    def poll(cls, context):
+        return getattr(context, "material", None) is not None
+
+    def invoke(self, context, event):
+        self.name = context.material.name
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context):
+        name = "-".join(self.name.lower().split())
+        if not name or any(c in name for c in '/\\:*?"<>|') or name.startswith("."):
+            self.report({"ERROR"}, f"'{self.name}' cannot be the name of a file")
+            return {"CANCELLED"}
+        path = os.path.join(folders()[0], name + SUFFIX)
+        try:
+            os.makedirs(folders()[0], exist_ok=True)
+            with open(path + ".part", "w", encoding="utf-8") as file:
+                json.dump(of_material(context.material), file, indent=2)
+            os.replace(path + ".part", path)
+        except OSError as problem:
+            self.report({"ERROR"}, f"{path}: {problem}")
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class GLINT_MT_presets(bpy.types.Menu):
+    bl_idname = "GLINT_MT_presets"
+    bl_label = "Presets"
+
+    def draw(self, context):
+        for name in available():
+            self.layout.operator("glint.apply_preset", text=name.replace("-", " ").capitalize()).name = name
+        self.layout.separator()
+        self.layout.operator("glint.save_preset")
+
+
+CLASSES = (GLINT_OT_apply_preset, GLINT_OT_save_preset, GLINT_MT_presets)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

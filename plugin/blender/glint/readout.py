@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many flakes a pixel of the active camera sees, and how many of them shine: what density means in the picture."""
+
+import math
+
+# The sun's solid angle, sr: what a lit flake must reflect.
+SUN_SR = 6.8e-5
+
+
+def pixel_side_m(scene, target):
+    """Side of a square that a pixel of the scene's camera covers at the object, facing the camera; None without one."""
+    camera = scene.camera
+    if camera is None or target is None:
+        return None
+    data, render = camera.data, scene.render
+    scale = render.resolution_percentage / 100.0
+    width, height = render.resolution_x * scale, render.resolution_y * scale
+    if data.type == "ORTHO":
+        return data.ortho_scale / max(width, height)
+    distance = (camera.matrix_world.translation - target.matrix_world.translation).length
+    side = {"HORIZONTAL": width, "VERTICAL": height}.get(data.sensor_fit, max(width, height))
+    sensor = data.sensor_height if data.sensor_fit == "VERTICAL" else data.sensor_width
+    return distance * sensor / (data.lens * side)
+
+
+def lit_share(alpha):
+    """Probability that a flake in the middle of the highlight mirrors the sun to the camera, GGX, head-on: D(n) Omega / (4
+    D_H), D(n) = 1 / (pi alpha^2), D_H about 1."""
+    return min(1.0, SUN_SR / (4.0 * math.pi * alpha * alpha))
+
+
+def lines(context):
+    from . import principled
+
+    group = context.material.glint
+    side = pixel_side_m(context.scene, context.object)
+    if side is None:
+        return ["No camera: flakes per pixel unknown"]
+    scale = context.object.matrix_world.median_scale
+    if group.space == "OBJECT":
+        scale = 1.0
+    per_pixel = group.density_per_cm2 * 1e4 * (side / max(scale, 1e-12)) ** 2
+    shining = per_pixel * lit_share(principled.flakes_of(context.material).alpha_x)
+    return [f"{per_pixel:.3g} flakes per pixel", f"{shining:.3g} glints per pixel under the sun"]

@@ -1,0 +1,12 @@
+set title 'Example model: times faster than the full sum of Gaussians'
+set logscale xy
+set xlabel 'pixel, texels along a side'
+set ylabel 'times faster'
+set key left top
+table = folder.'/example_speed.csv'
+plot [0.3:60] [0.1:200] \
+    table index 0 using 1:5 with linespoints linetype 1 title 'tiled, any half vector', \
+    table index 0 using 1:9 with linespoints linetype 6 title 'tiled, lit', \
+    table index 1 using 1:5 with linespoints linetype 7 title 'scattered, any half vector', \
+    table index 1 using 1:9 with linespoints linetype 2 title 'scattered, lit', \
+    1 with lines linecolor rgb '#AAAAAA' dashtype 2 title 'the full sum'
