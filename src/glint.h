@@ -141,8 +141,8 @@ typedef enum glint_example_placement {
  * (Eqs. 8 and 9 of Xing et al. 2024). A surface whose alpha differs from that of the options stretches the slopes by
  * the quotient; one whose facets_per_m2 differs shrinks the map, so that texels per area follow it. */
 typedef struct glint_example {
-    /* size * size normals, row by row from v = 0 up, copied; z > 0 and slopes up to 8. NULL: flat facets that follow
-     * distribution, alpha_x and alpha_y. */
+    /* size * size normals, row by row from v = 0 up, copied; x along u, which is the frame's x, and y along v; z > 0
+     * and slopes up to 8. NULL: flat facets that follow distribution, alpha_x and alpha_y. */
     const float *normals;
     uint32_t components; /* of a normal: 2 (x and y of a unit vector) or 3 (x, y, z, any length) */
     uint32_t size;       /* texels along a side: 8, 16, 32, 64, 128 or 256 */

@@ -16,9 +16,9 @@ void complain(complaint *c, glint_result result, const char *format, ...)
     if (c->text && c->size > 0) {
         va_list arguments;
         const size_t length = (size_t)snprintf(c->text, c->size, "%s", c->scope ? c->scope : "");
+        const size_t start = length < c->size ? length : c->size - 1;
         va_start(arguments, format);
-        if (length < c->size)
-            vsnprintf(c->text + length, c->size - length, format, arguments);
+        vsnprintf(c->text + start, c->size - start, format, arguments);
         va_end(arguments);
     }
 }

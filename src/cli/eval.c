@@ -72,7 +72,7 @@ static bool plan_layer(const eval_values *values, const scene *s, const scene_ma
     const glint_model automatic = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
     const glint_model model = values->model == 0 ? automatic : (glint_model)(values->model - 1);
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, model) : scene_coat_options(m, model);
-    if (out->options.model != GLINT_MODEL_EXAMPLE)
+    if (g == NULL || out->options.model != GLINT_MODEL_EXAMPLE)
         return true;
     if (g->structure != SCENE_STRUCTURE_EXAMPLE)
         report_warning(r,

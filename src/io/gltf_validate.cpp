@@ -65,7 +65,9 @@ void check_values(const json &glint, const json &material, const std::string &po
                    "shows one");
     const json pbr = material.value("pbrMetallicRoughness", json::object());
     const double roughness = pbr.value("roughnessFactor", 1.0), facet = glint.value("glintFacetRoughness", 0.05);
-    if (facet >= roughness && facet > 0.0)
+    // A normal map may lean one way only: grooves are as rough along them as within a texel.
+    const bool is_mapped = glint.value("glintStructure", "flakes") == "example";
+    if (facet >= roughness && facet > 0.0 && !is_mapped)
         issues.add(VALIDATE_WARNING, "FACET_ROUGHNESS", pointer + "/glintFacetRoughness", text_of(facet),
                    "less than the roughnessFactor of " + text_of(roughness) +
                        ": facets that are rougher than the surface show no glints");

@@ -27,7 +27,8 @@ ltc ltc_find(ndf_kind kind, double alpha, vec3d wo)
     /* x' = along (x cos - z sin) + shift z, x away from the viewer; y' = across y; z' = z. A view closer to the horizon
      * than the table goes has the table's last lobe. */
     const double sine = sqrt(wo.x * wo.x + wo.y * wo.y);
-    const double cosine = real_max(wo.z, 0.01), ex = sine > 0.0 ? -wo.x / sine : 1.0, ey = sine > 0.0 ? -wo.y / sine : 0.0;
+    const double cosine = real_max(wo.z, 0.01), ex = sine > 0.0 ? -wo.x / sine : 1.0,
+                 ey = sine > 0.0 ? -wo.y / sine : 0.0;
     const double along = n[0] * (cosine * cosine + alpha * alpha) / (2.0 * alpha * cosine);
     const double a = along * cosine, b = n[1] * alpha / (2.0 * cosine) - along * real_min(sine, sqrt(1.0 - 1e-4));
     const double across = n[2] / (2.0 * alpha);

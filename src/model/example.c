@@ -156,10 +156,11 @@ static void example_eval(const model_query *q, glint_value *value)
     }
     const float smooth = facet_density(lobe.h, r, overall);
     combine(q, &lobe, masking, smooth, facet_density(lobe.h, r, mixed), value);
-    const float tinted = share * facet_density(lobe.h, r, seen);
     for (int c = 0; c < 3; c++)
-        if (tint[c] != 1.0F)
-            value->rgb[c] = fmaxf(value->rgb[c] + lobe.reflectance[c] * tinted * (tint[c] - 1.0F), 0.0F);
+        if (tint[c] != 1.0F) {
+            const float tinted = (1.0F - share) * overall + share * seen * tint[c];
+            value->rgb[c] = lobe.reflectance[c] * facet_density(lobe.h, r, tinted) + lobe.diffuse[c];
+        }
     const float side = side_of(q), texels = (float)e->size / side;
     const float count = footprint_area(q->footprint) * texels * texels;
     value->facet_count = count < 1e30F ? count : 1e30F;

@@ -62,7 +62,8 @@ static float sampled_albedo(const model_query *q, int channel)
     enum { SIDE = 16 };
     float sum = 0.0F;
     for (int i = 0; i < SIDE * SIDE; i++) {
-        const float random[3] = { 0.0F, ((float)(i / SIDE) + 0.5F) / SIDE, ((float)(i % SIDE) + 0.5F) / SIDE };
+        const int row = i / SIDE, column = i % SIDE;
+        const float random[3] = { 0.0F, ((float)row + 0.5F) / SIDE, ((float)column + 0.5F) / SIDE };
         glint_sample s;
         if (q->material->model->sample(q, random, &s))
             sum += s.weight[channel];
@@ -86,8 +87,9 @@ float coat_measured_slant(const struct glint_material *coat)
     model_query q = { .material = coat, .surface = &s, .total_area = coat->total_area };
     float slant = 1.0F;
     for (int i = 0; i < AROUND * DOWN; i++) {
-        const float cosine = ((float)(i / AROUND) + 0.5F) / DOWN;
-        const vec3 around = lobe_cosine_direction(((float)(i % AROUND) + 0.5F) / AROUND, 1.0F);
+        const int row = i / AROUND, column = i % AROUND;
+        const float cosine = ((float)row + 0.5F) / DOWN;
+        const vec3 around = lobe_cosine_direction(((float)column + 0.5F) / AROUND, 1.0F);
         const float sine = sqrtf(1.0F - cosine * cosine);
         q.wo = (vec3){ around.x * sine, around.y * sine, cosine };
         for (int c = 0; c < 3; c++) {

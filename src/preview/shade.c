@@ -170,7 +170,7 @@ static void place_glints(const shader *s, const hit *h, const hit_step *step, fl
 {
     const scene_material *const m = &s->scene->materials[h->mesh->material];
     static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
-    for (int i = 0; i < out->layer_count; ++i) {
+    for (int i = 0; i < out->layer_count && i < 2; ++i) {
         const scene_glint *const g = scene_layer_glint(m, of[i]);
         if (!out->layers[i].counts || g == NULL)
             continue;

@@ -206,6 +206,99 @@ static void the_sum_is_that_of_the_paper(void **state)
     }
 }
 
+/* ---- lights of real size ---- */
+
+/* A parallelogram somewhere above, turned to the origin or away. */
+static glint_area_light random_rectangle(uint64_t *random)
+{
+    glint_area_light l = { .kind = GLINT_AREA_RECTANGLE, .two_sided = 1U };
+    float towards[3];
+    random_direction(random, towards);
+    for (int k = 0; k < 3; k++) {
+        l.center[k] = 2.0F * towards[k];
+        l.half_x[k] = (float)random_between(random, -0.3, 0.3);
+        l.half_y[k] = (float)random_between(random, -0.3, 0.3);
+    }
+    return l;
+}
+
+static glint_area_light turned(const frame *f, const glint_area_light *from)
+{
+    glint_area_light l = *from;
+    to_frame(f, from->center, l.center);
+    to_frame(f, from->half_x, l.half_x);
+    to_frame(f, from->half_y, l.half_y);
+    return l;
+}
+
+static void upright(glint_coat *c)
+{
+    const glint_coat up = GLINT_COAT_INIT;
+    memcpy(c->normal, up.normal, sizeof(up.normal));
+    memcpy(c->tangent, up.tangent, sizeof(up.tangent));
+}
+
+/* What is left of the base lies between what the coat leaves for the directions of single points of the light. */
+static void assert_between_points(const glint_material *both, const glint_coat *c, const float wo[3],
+                                  const glint_area_light *l, int channel, double kept)
+{
+    double least = 1.0, most = 0.0;
+    for (int i = 0; i < 21 * 21; i++) {
+        float wi[3], through[3];
+        double length = 0.0;
+        for (int k = 0; k < 3; k++) {
+            wi[k] = l->center[k] + l->half_x[k] * ((float)(i % 21) / 10.0F - 1.0F) +
+                    l->half_y[k] * ((float)(i / 21) / 10.0F - 1.0F);
+            length += (double)(wi[k] * wi[k]);
+        }
+        for (int k = 0; k < 3; k++)
+            wi[k] = (float)((double)wi[k] / sqrt(length));
+        glint_transmittance(both, c, wo, wi, through);
+        least = fmin(least, (double)through[channel]);
+        most = fmax(most, (double)through[channel]);
+    }
+    if (!(kept >= least - 1e-4 && kept <= most + 1e-4))
+        fail_msg("%.6f of the base is left, expected %.6f to %.6f", kept, least, most);
+}
+
+static void area_lights_are_those_of_the_layers(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    for (int k = 0; k < SINGLE_COUNT; k++) {
+        const configuration b = configuration_of(SINGLE[k], 5), d = configuration_of(SINGLE[(k + 3) % SINGLE_COUNT], 4);
+        glint_material *base = create(&b.options), *coat = create(&d.options),
+                       *both = create_layered(&b.options, &d.options, 1.0F);
+        /* These look at points of the light, others in another frame. */
+        const int is_drawn = d.options.model == GLINT_MODEL_DICTIONARY || d.options.model == GLINT_MODEL_EXAMPLE;
+        for (int i = 0; i < 100; i++) {
+            float wo[3], wo_coat[3];
+            random_direction(&random, wo);
+            const glint_area_light light = random_rectangle(&random);
+            glint_coat c = bent_coat(both, i % 3 ? 0.3 : 0.0, &random);
+            if (is_drawn)
+                upright(&c);
+            glint_surface s = glint_material_surface(both);
+            s.coat = &c;
+            const frame at = frame_of(&c);
+            to_frame(&at, wo, wo_coat);
+            const glint_area_light from_coat = turned(&at, &light);
+            glint_value vb, vc, v;
+            glint_eval_area(base, NULL, NULL, wo, &light, &vb);
+            glint_eval_area(coat, &c.surface, NULL, wo_coat, &from_coat, &vc);
+            glint_eval_area(both, &s, NULL, wo, &light, &v);
+            /* Integrals are good to 1e-5 or so; where the coat outshines the base nothing can be said of the base. */
+            if (!(vb.smooth[1] > 0.1F * v.smooth[1]))
+                continue;
+            const double coats = (double)c.weight * (double)vc.smooth[1];
+            assert_between_points(both, &c, wo, &light, 1, ((double)v.smooth[1] - coats) / (double)vb.smooth[1]);
+        }
+        glint_material_destroy(base);
+        glint_material_destroy(coat);
+        glint_material_destroy(both);
+    }
+}
+
 /* With one normal for both the frames have the same bits, and so has what is counted. */
 static void facets_of_both_layers_are_counted(void **state)
 {
@@ -376,6 +469,7 @@ int main(void)
         cmocka_unit_test(without_a_coat_there_is_the_base_alone),
         cmocka_unit_test(over_a_black_base_there_is_the_coat_alone),
         cmocka_unit_test(the_sum_is_that_of_the_paper),
+        cmocka_unit_test(area_lights_are_those_of_the_layers),
         cmocka_unit_test(facets_of_both_layers_are_counted),
         cmocka_unit_test(each_layer_has_a_horizon_of_its_own),
         cmocka_unit_test(a_coat_without_a_direction_shows_nothing),

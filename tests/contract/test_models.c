@@ -48,7 +48,9 @@ static void light_and_viewer_may_be_exchanged(void **state)
         }
     }
     contract_kept(3, "Light and viewer may be exchanged", "models",
-                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "no (1)" }, { GLINT_MODEL_SMOOTH, NULL } });
+                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "no (1)" },
+                                                { GLINT_MODEL_LAYERED, "yes (1)" },
+                                                { GLINT_MODEL_SMOOTH, NULL } });
 }
 
 static void nothing_is_seen_below_the_horizon(void **state)
@@ -162,7 +164,9 @@ static void tends_to_smooth_as_density_grows(void **state)
             assert_true(last < 1e-4);
     }
     contract_kept(6, "Tends to smooth as density grows", "models",
-                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "yes (3)" }, { GLINT_MODEL_SMOOTH, NULL } });
+                  (const contract_exception[]){ { GLINT_MODEL_EXPLICIT, "yes (3)" },
+                                                { GLINT_MODEL_LAYERED, "yes (3)" },
+                                                { GLINT_MODEL_SMOOTH, NULL } });
 }
 
 int main(void)

@@ -94,7 +94,8 @@ static void write_parts(study *s)
                 for (int k = 0; k < side * side && whole.smooth[0] > 1e-6F; k++) {
                     glint_area_light l = c.light;
                     const float x = (float)((2.0 * (k % side) + 1.0) / side - 1.0);
-                    const float y = (float)((2.0 * (k / side) + 1.0) / side - 1.0);
+                    const int row = k / side;
+                    const float y = (float)((2.0 * row + 1.0) / side - 1.0);
                     for (int a = 0; a < 3; a++) {
                         l.center[a] += x * c.light.half_x[a] + y * c.light.half_y[a];
                         l.half_x[a] /= (float)side;

@@ -65,7 +65,7 @@ static query ask(const bench *b, const seed_surface *all, double sigma, double r
         if (hypot(all->seeds[i].at[0] - q.at[0], all->seeds[i].at[1] - q.at[1]) < reach)
             q.reached.seeds[q.reached.count++] = all->seeds[i];
     assert_true(q.reached.count > 0);
-    const seed_gaussian *below = &q.reached.seeds[random_bits(random) % q.reached.count];
+    const seed_gaussian *below = &q.reached.seeds[random_bits(random) % (q.reached.count > 0 ? q.reached.count : 1)];
     for (int k = 0; k < 2; k++)
         q.slope[k] = is_lit ? below->slope[k] + sqrt(below->roughness[2 * k]) * random_between(random, -1.0, 1.0)
                             : random_between(random, -3.0 * rms, 3.0 * rms);
