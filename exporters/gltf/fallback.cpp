@@ -117,6 +117,11 @@ class baker
                                "has a normal map, which the fallback keeps; its glints are left out there");
             return;
         }
+        if (glint.structure == SCENE_STRUCTURE_EXAMPLE) {
+            reading_.file.warn(json_pointer("/materials", static_cast<size_t>(index)),
+                               "has an example, which is no flakes; the fallback leaves its glints out");
+            return;
+        }
         const auto map = std::make_unique<flakes>();
         const flakes_request request = request_of(m, glint);
         if (glint.factor > 0.0F && flakes_make(&request, map.get()))
