@@ -9,6 +9,8 @@ const { pathToFileURL } = require("node:url");
 const { chromium } = require("playwright-core");
 
 const [glint, scene, folder] = process.argv.slice(2);
+// A browser that starts beside a compiler on two cores takes its time.
+const PATIENCE_MS = 180000;
 const file = (name) => path.join(folder, name);
 fs.mkdirSync(folder, { recursive: true });
 
@@ -76,9 +78,12 @@ async function readoutIsThePixel(page, difference) {
 
 async function main() {
   const result = compare();
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox"] });
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"], timeout: PATIENCE_MS
+  });
   try {
     const page = await browser.newPage({ viewport: { width: 1280, height: 1000 } });
+    page.setDefaultTimeout(PATIENCE_MS);
     const complaints = [], requests = [];
     page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
     page.on("pageerror", (error) => complaints.push(String(error)));
