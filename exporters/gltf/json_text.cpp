@@ -364,3 +364,8 @@ std::string json_layout(std::string_view text, const json_style &style, size_t l
     l.write(json_text::root, level);
     return l.out;
 }
+
+std::string json_object_of(const std::string &name, const std::string &raw)
+{
+    return std::string("{").append(json(name).dump()).append(":").append(raw).append("}");
+}

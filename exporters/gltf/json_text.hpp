@@ -104,4 +104,7 @@ class json_text
     json_style style_;
 };
 
+// {"NAME":RAW}, the name escaped, the value as it is.
+std::string json_object_of(const std::string &name, const std::string &raw);
+
 #endif

@@ -177,7 +177,7 @@ void material_put(material_text &m, const std::string &pointer, std::string raw)
         if (text.kind(n) != '{')
             throw file_error(here, "found no object, expected one to set \"" + tokens[depth] + "\" in");
         for (size_t i = tokens.size() - 1; i > depth; i--)
-            raw = "{" + json(tokens[i]).dump() + ":" + raw + "}";
+            raw = json_object_of(tokens[i], raw);
         text.add_member(n, tokens[depth], raw);
     }
     m.raw = text.result();

@@ -153,7 +153,7 @@ void patch::write_record()
     record_.added.push_back(json_pointer(pointer, record_path[depth]));
     std::string raw = record_text(record_);
     for (size_t i = std::size(record_path) - 1; i > depth; i--)
-        raw = "{" + json(record_path[i]).dump() + ":" + raw + "}";
+        raw = json_object_of(record_path[i], raw);
     text_.add_member(n, record_path[depth], raw);
 }
 

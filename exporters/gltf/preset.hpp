@@ -11,6 +11,7 @@
 
 constexpr uint64_t export_max_image_bytes = uint64_t{ 1 } << 30; // our choice: far more than a texture needs
 
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a json asserts its invariant, which is taken for a throw
 struct export_preset {
     std::string name, path, text;
     json material;                            // the text, parsed

@@ -64,7 +64,7 @@ def light_of(kind, intensity, sun_rad):
     raise ValueError(f"light '{kind}': expected sun")
 
 
-def scene(shape, distribution, light="sun", sun_rad=SUN_RAD):
+def scene(shape, distribution, light="sun", sun_rad=SUN_RAD, facet_roughness=FACET_ROUGHNESS):
     positions, normals, uv, indices = {"plane": plane, "sphere": sphere}[shape]()
     count = len(positions)
     low = [min(p[i] for p in positions) for i in range(3)]
@@ -92,7 +92,7 @@ def scene(shape, distribution, light="sun", sun_rad=SUN_RAD):
             "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": ROUGHNESS},
             "extensions": {"GLINT_materials_glint": {
                 "glintFactor": 1, "glintDistribution": distribution, "glintDensity": CELLS[shape] ** 2,
-                "glintFacetRoughness": FACET_ROUGHNESS, "glintSeed": 5,
+                "glintFacetRoughness": facet_roughness, "glintSeed": 5,
             }},
         }],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}],
