@@ -41,7 +41,7 @@ static void list_line(const char *name, const char *title, const char *note, voi
 {
     (void)note;
     (void)user;
-    printf("%-20s %s\n", name, title);
+    printf("%-24s %s\n", name, title);
 }
 
 static void list_entry(const char *name, const char *title, const char *note, void *user)

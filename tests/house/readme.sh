@@ -14,7 +14,10 @@ while IFS= read -r line; do
     if [[ $line == "glint render"* ]]; then
         line+=" --size 64x48 --spp 1"
     fi
-    bash -c "$line" </dev/null
+    status=0
+    bash -c "$line" </dev/null || status=$?
+    # Pictures as small as these need not agree; glint compare says so with 1, and has written its report.
+    [ $status = 0 ] || { [ $status = 1 ] && [[ $line == "glint compare"* ]] && [ -s report.html ]; } || exit $status
     count=$((count + 1))
 done < <(sed -n '/^```sh$/,/^```$/p' "$readme" | grep '^glint ')
 [ "$count" -ge 4 ] || { echo "README.md has only $count lines that begin with glint"; exit 1; }
