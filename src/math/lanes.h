@@ -376,6 +376,45 @@ static inline vuint choose_u(vmask m, vuint a, vuint b)
     return (vuint)choose_i(m, (vint)a, (vint)b);
 }
 
+/* The second of two numbers that are equal or not ordered, as the instructions have it. */
+#if GLINT_LANES == 16 && defined(__AVX512F__)
+
+static inline vfloat min_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm512_min_ps((__m512)a, (__m512)b);
+}
+
+static inline vfloat max_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm512_max_ps((__m512)a, (__m512)b);
+}
+
+#elif GLINT_LANES == 8 && defined(__AVX2__)
+
+static inline vfloat min_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm256_min_ps((__m256)a, (__m256)b);
+}
+
+static inline vfloat max_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm256_max_ps((__m256)a, (__m256)b);
+}
+
+#elif GLINT_LANES == 4 && defined(__SSE2__)
+
+static inline vfloat min_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm_min_ps((__m128)a, (__m128)b);
+}
+
+static inline vfloat max_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm_max_ps((__m128)a, (__m128)b);
+}
+
+#else
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return choose(less(a, b), a, b);
@@ -385,6 +424,8 @@ static inline vfloat max_f(vfloat a, vfloat b)
 {
     return choose(less(b, a), a, b);
 }
+
+#endif
 
 static inline vint min_i(vint a, vint b)
 {
