@@ -88,7 +88,7 @@ static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat 
     weight[2] = gx * up;
     weight[3] = fx * up;
 
-    const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
+    const vuint lattice = (vuint)(l->level + mask_bits(coarse)) * HASH_Z;
     const vuint corner = (cell + (vuint)(x >> 16)) * HASH_X + (vuint)(y >> 16) * HASH_Y + lattice;
     uniform[0] = (vint)hash_top(corner);
     uniform[1] = (vint)hash_top(corner + HASH_X);
