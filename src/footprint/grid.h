@@ -165,8 +165,14 @@ static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID
     share[3] = c_up;
 }
 
+/* What is left of x above its floor, in [0, 1] whatever the floor is. */
+static inline vfloat grid_fraction(vfloat f)
+{
+    return min_f(max_f(f, splat(0.0F)), splat(1.0F));
+}
+
 /* Largest integer <= x as a double, and its low 32 bits. Adding 1.5 * 2^52 leaves the nearest integer in the low bits;
- * the argument must stay below 2^51 in size. */
+ * beyond 2^51 in size what comes out is no floor, but a number. */
 static inline vdouble grid_floor(vdouble x, vuint *low)
 {
     const vdouble shifted = x + 6755399441055744.0;
@@ -199,7 +205,9 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
         u * widen(cosine * along + sine * skew) + v * widen(sine * along - cosine * skew) + widen(start_x);
     const vdouble sy = v * widen(cosine * tall) - u * widen(sine * tall) + widen(start_y);
     vuint x, y;
-    const vfloat fx = narrow(sx - grid_floor(sx, &x)), fy = narrow(sy - grid_floor(sy, &y));
+    /* Where cells have no numbers any more the weights of the blend still add up to one. */
+    const vfloat fx = grid_fraction(narrow(sx - grid_floor(sx, &x))),
+                 fy = grid_fraction(narrow(sy - grid_floor(sy, &y)));
     const vfloat sum = fx + fy;
     const vmask upper = less_equal(splat(1.0F), sum);
     weight[0] = abs_f(1.0F - sum);
@@ -212,7 +220,7 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     cell[2] = hash_full(origin + HASH_Y);
 }
 
-/* (u, v) in metres, |u| and |v| < 2^50 cells. */
+/* (u, v) in metres; beyond 2^51 cells from the origin single cells cannot be told apart. */
 static inline grid_point grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed)
 {
     const grid_shape shape = grid_shape_of(ellipse);
