@@ -167,14 +167,15 @@ static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID
 
 /* What of x is above the largest integer below it, in [0, 1], and the low 32 bits of that integer; a hair below an
  * integer is the integer with 0 or the one below with 1. Adding 1.5 * 2^52 leaves the nearest integer in the low bits;
- * x must stay below 2^51 in size. */
+ * beyond 2^51 in size what comes out is no floor, but a number. */
 static inline vfloat grid_fraction(vdouble x, vuint *integer)
 {
     const vdouble shift = splat_d(6755399441055744.0), shifted = add_d(x, shift);
     const vfloat from_nearest = narrow(subtract_d(x, subtract_d(shifted, shift)));
     const vmask above = less(from_nearest, splat(0.0F));
     *integer = low_word(shifted) + (vuint)mask_bits(above);
-    return from_nearest + choose(above, splat(1.0F), splat(0.0F));
+    const vfloat fraction = from_nearest + choose(above, splat(1.0F), splat(0.0F));
+    return min_f(max_f(fraction, splat(0.0F)), splat(1.0F));
 }
 
 /* The triangle of one grid's lattice around (u, v): three cells and barycentric weights. */
@@ -202,6 +203,7 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     const vdouble sy =
         add_d(subtract_d(multiply_d(v, widen(cosine * tall)), multiply_d(u, widen(sine * tall))), widen(start_y));
     vuint x, y;
+    /* Where cells have no numbers any more the weights of the blend still add up to one. */
     const vfloat fx = grid_fraction(sx, &x), fy = grid_fraction(sy, &y);
     const vfloat sum = fx + fy;
     const vmask upper = less_equal(splat(1.0F), sum);
@@ -215,7 +217,7 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     cell[2] = hash_full(origin + HASH_Y);
 }
 
-/* (u, v) in metres, |u| and |v| < 2^50 cells. */
+/* (u, v) in metres; beyond 2^51 cells from the origin single cells cannot be told apart. */
 static inline void grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed, grid_point *p)
 {
     const grid_shape shape = grid_shape_of(ellipse);

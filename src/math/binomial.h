@@ -50,7 +50,9 @@ static inline vint binomial_threshold(vfloat s, vfloat dither)
 {
     const vfloat most = splat(2147483520.0F); /* the largest float below 2^31 */
     const vfloat t = max_f(s, splat(0.0F)) * 2147483648.0F + dither;
-    const vint scaled = (vint)((vuint)to_int(min_f(t, most)) << 1 ^ 0x80000000U);
+    /* The smaller one by its bits: GCC 12 converts both and then chooses, and 2^31 is no integer to convert. */
+    const vfloat fits = float_from_bits((vuint)min_i((vint)bits_of(t), (vint)bits_of(most)));
+    const vint scaled = (vint)((vuint)to_int(fits) << 1 ^ 0x80000000U);
     return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
 }
 
