@@ -54,17 +54,24 @@ static inline vint binomial_threshold(vfloat s, vfloat dither)
     return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
 }
 
-/* Sum of weight[i] * X_i over twelve draws from b(trials, chance), in three groups of four with one dither each.
+/* How many draws share one (N, p): groups, with a dither each, of so many. At most three of four. */
+typedef struct binomial_many {
+    int groups, each;
+} binomial_many;
+
+/* Sum of weight[i] * X_i over draws from b(trials, chance).
  *
  * trials   >= 0, up to 1e30
  * uniform  hashes, uniform as signed 32-bit integers
  * weight   >= 0
  * drawn    NULL, or where each X_i goes
+ * many     known to the compiler
  */
 static inline __attribute__((always_inline)) vfloat
-binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint uniform[12], const vfloat weight[12],
-                        const vfloat dither[3], vfloat *drawn)
+binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint *uniform, const vfloat *weight,
+                        const vfloat *dither, vfloat *drawn, const binomial_many many)
 {
+    const int all = many.groups * many.each;
     const vfloat p = chance->p;
     const vfloat n = floor_f(trials);
     const vfloat hit = (trials - n) * chance->given;
@@ -76,9 +83,9 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
     const vmask wide = less_equal(splat(BINOMIAL_WALK_MEAN), mean);
     vfloat sum = splat(0.0F);
     vint u[12];
-    for (int i = 0; i < 12; i++)
+    for (int i = 0; i < all; i++)
         u[i] = uniform[i] ^ flip;
-    for (int i = 0; drawn && i < 12; i++)
+    for (int i = 0; drawn && i < all; i++)
         drawn[i] = splat(0.0F);
 
     if (any(~wide)) {
@@ -91,27 +98,30 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         vfloat em1, mass;
         exp_both(n * chance->log_miss, &em1, &mass);
         vint least = u[0];
-        for (int i = 1; i < 12; i++)
+        for (int i = 1; i < all; i++)
             least = min_i(least, u[i]);
         least = choose_i(wide, splat_i(INT32_MAX), least);
 
         vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
         /* A step of 0 keeps lanes that are not walked from overflowing. */
         vfloat survival = -em1, step = choose(wide, splat(0.0F), n * chance->odds);
-        vint threshold[3];
-        for (int g = 0; g < 3; g++)
+        vint threshold[3] = { splat_i(0), splat_i(0), splat_i(0) };
+        for (int g = 0; g < many.groups; g++)
             threshold[g] = binomial_threshold(survival + b * mass, dither[g]);
         for (int k = 0; k < BINOMIAL_WALK_STEPS; k++) {
             if (k > 0)
                 threshold[0] = threshold[1] = threshold[2] = binomial_threshold(survival + b * mass, splat(0.0F));
-            if (!any(less_i(least, threshold[0]) | less_i(least, threshold[1]) | less_i(least, threshold[2])))
+            vmask left = less_i(least, threshold[0]);
+            for (int g = 1; g < many.groups; g++)
+                left = left | less_i(least, threshold[g]);
+            if (!any(left))
                 break;
             /* Denormals would cost up to four times as much. */
             mass = max_f(mass * step * inverse[k + 1], splat(1e-30F));
             step = step - chance->odds;
             survival = survival - mass;
-            for (int g = 0; g < 3; g++)
-                for (int i = 4 * g; i < 4 * g + 4; i++) {
+            for (int g = 0; g < many.groups; g++)
+                for (int i = many.each * g; i < many.each * (g + 1); i++) {
                     const vmask more = less_i(u[i], threshold[g]);
                     group[g] = group[g] + choose(more, weight[i], splat(0.0F));
                     if (drawn)
@@ -127,8 +137,8 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         const vfloat s = sqrt_f(max_f(variance - 0.083333333F - 2.0F * c * c, splat(0.0F)));
         const vfloat centre = mean + 0.5F - c;
         vfloat normal[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
-        for (int g = 0; g < 3; g++)
-            for (int i = 4 * g; i < 4 * g + 4; i++) {
+        for (int g = 0; g < many.groups; g++)
+            for (int i = many.each * g; i < many.each * (g + 1); i++) {
                 const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
                 const vfloat x = max_f(floor_f(centre - z * (s - c * z)), splat(0.0F));
                 normal[g] = normal[g] + weight[i] * min_f(x, n + 1.0F);
@@ -138,17 +148,25 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         sum = choose(wide, normal[0] + normal[1] + normal[2], sum);
     }
     vfloat total = splat(0.0F);
-    for (int i = 0; i < 12; i++)
+    for (int i = 0; i < all; i++)
         total = total + weight[i];
-    for (int i = 0; drawn && i < 12; i++)
+    for (int i = 0; drawn && i < all; i++)
         drawn[i] = choose(flip, n + 1.0F - drawn[i], drawn[i]);
     return choose(flip, (n + 1.0F) * total - sum, sum);
 }
 
+/* Twelve draws, in three groups of four. */
 static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
                                            const vfloat weight[12], const vfloat dither[3])
 {
-    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0);
+    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0, (binomial_many){ 3, 4 });
+}
+
+/* One draw alone. */
+static inline vfloat binomial_draw(vfloat trials, const binomial_chance *chance, vint uniform, vfloat dither)
+{
+    const vfloat whole = splat(1.0F);
+    return binomial_weighted_draws(trials, chance, &uniform, &whole, &dither, (vfloat *)0, (binomial_many){ 1, 1 });
 }
 
 #endif
