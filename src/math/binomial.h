@@ -56,11 +56,16 @@ static inline vint binomial_threshold(vfloat s, vfloat dither)
     return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
 }
 
-/* One step of the walk for four draws: those whose uniform is below the threshold count one more. */
-static inline __attribute__((always_inline)) vfloat binomial_count(vint threshold, const vint u[4],
-                                                                   const vfloat weight[4], vfloat sum, vfloat *drawn)
+/* How many draws share one (N, p): groups, with a dither each, of so many. At most three of four. */
+typedef struct binomial_many {
+    int groups, each;
+} binomial_many;
+
+/* One step of the walk for one group: those draws whose uniform is below the threshold count one more. */
+static inline __attribute__((always_inline)) vfloat binomial_count(int draws, vint threshold, const vint *u,
+                                                                   const vfloat *weight, vfloat sum, vfloat *drawn)
 {
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < draws; i++) {
         const vmask more = less_i(u[i], threshold);
         sum = add_where(more, sum, weight[i]);
         if (drawn)
@@ -69,17 +74,19 @@ static inline __attribute__((always_inline)) vfloat binomial_count(vint threshol
     return sum;
 }
 
-/* Sum of weight[i] * X_i over twelve draws from b(trials, chance), in three groups of four with one dither each.
+/* Sum of weight[i] * X_i over draws from b(trials, chance).
  *
  * trials   >= 0, up to 1e30
  * uniform  hashes, uniform as signed 32-bit integers
  * weight   >= 0
  * drawn    NULL, or where each X_i goes
+ * many     known to the compiler
  */
 static inline __attribute__((always_inline)) vfloat
-binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint uniform[12], const vfloat weight[12],
-                        const vfloat dither[3], vfloat *drawn)
+binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint *uniform, const vfloat *weight,
+                        const vfloat *dither, vfloat *drawn, const binomial_many many)
 {
+    const int all = many.groups * many.each;
     const vfloat p = chance->p;
     const vfloat n = floor_f(trials);
     const vfloat hit = (trials - n) * chance->given;
@@ -91,9 +98,9 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
     const vmask wide = less_equal(splat(BINOMIAL_WALK_MEAN), mean);
     vfloat sum = splat(0.0F);
     vint u[12];
-    for (int i = 0; i < 12; i++)
+    for (int i = 0; i < all; i++)
         u[i] = uniform[i] ^ mask_bits(flip);
-    for (int i = 0; drawn && i < 12; i++)
+    for (int i = 0; drawn && i < all; i++)
         drawn[i] = splat(0.0F);
 
     if (any(~wide)) {
@@ -106,7 +113,7 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         vfloat em1, mass;
         exp_both(n * chance->log_miss, &em1, &mass);
         vint least = u[0];
-        for (int i = 1; i < 12; i++)
+        for (int i = 1; i < all; i++)
             least = min_i(least, u[i]);
         least = choose_i(wide, splat_i(INT32_MAX), least);
 
@@ -114,11 +121,17 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         /* A step of 0 keeps lanes that are not walked from overflowing. */
         vfloat survival = -em1, step = choose(wide, splat(0.0F), n * chance->odds);
         vint first[3];
-        for (int g = 0; g < 3; g++)
+        vmask left = mask_none();
+        for (int g = 0; g < many.groups; g++) {
             first[g] = binomial_threshold(survival + b * mass, dither[g]);
-        if (any(less_i(least, first[0]) | less_i(least, first[1]) | less_i(least, first[2]))) {
-            for (int g = 0; g < 3; g++)
-                group[g] = binomial_count(first[g], u + 4 * g, weight + 4 * g, group[g], drawn ? drawn + 4 * g : drawn);
+            left = left | less_i(least, first[g]);
+        }
+        if (any(left)) {
+            for (int g = 0; g < many.groups; g++) {
+                const int from = many.each * g;
+                group[g] = binomial_count(many.each, first[g], u + from, weight + from, group[g],
+                                          drawn ? drawn + from : drawn);
+            }
             for (int k = 1; k < BINOMIAL_WALK_STEPS; k++) {
                 /* Denormals would cost up to four times as much. */
                 mass = max_f(mass * step * inverse[k], splat(1e-30F));
@@ -127,8 +140,11 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
                 const vint next = binomial_threshold(survival + b * mass, splat(0.0F));
                 if (!any(less_i(least, next)))
                     break;
-                for (int g = 0; g < 3; g++)
-                    group[g] = binomial_count(next, u + 4 * g, weight + 4 * g, group[g], drawn ? drawn + 4 * g : drawn);
+                for (int g = 0; g < many.groups; g++) {
+                    const int from = many.each * g;
+                    group[g] = binomial_count(many.each, next, u + from, weight + from, group[g],
+                                              drawn ? drawn + from : drawn);
+                }
             }
         }
         sum = group[0] + group[1] + group[2];
@@ -140,8 +156,8 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         const vfloat s = sqrt_f(max_f(variance - 0.083333333F - 2.0F * c * c, splat(0.0F)));
         const vfloat centre = mean + 0.5F - c;
         vfloat normal[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
-        for (int g = 0; g < 3; g++)
-            for (int i = 4 * g; i < 4 * g + 4; i++) {
+        for (int g = 0; g < many.groups; g++)
+            for (int i = many.each * g; i < many.each * (g + 1); i++) {
                 const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
                 const vfloat x = max_f(floor_f(centre - z * (s - c * z)), splat(0.0F));
                 normal[g] = normal[g] + weight[i] * min_f(x, n + 1.0F);
@@ -151,17 +167,25 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         sum = choose(wide, normal[0] + normal[1] + normal[2], sum);
     }
     vfloat total = splat(0.0F);
-    for (int i = 0; i < 12; i++)
+    for (int i = 0; i < all; i++)
         total = total + weight[i];
-    for (int i = 0; drawn && i < 12; i++)
+    for (int i = 0; drawn && i < all; i++)
         drawn[i] = choose(flip, n + 1.0F - drawn[i], drawn[i]);
     return choose(flip, (n + 1.0F) * total - sum, sum);
 }
 
+/* Twelve draws, in three groups of four. */
 static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
                                            const vfloat weight[12], const vfloat dither[3])
 {
-    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0);
+    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0, (binomial_many){ 3, 4 });
+}
+
+/* One draw alone. */
+static inline vfloat binomial_draw(vfloat trials, const binomial_chance *chance, vint uniform, vfloat dither)
+{
+    const vfloat whole = splat(1.0F);
+    return binomial_weighted_draws(trials, chance, &uniform, &whole, &dither, (vfloat *)0, (binomial_many){ 1, 1 });
 }
 
 #endif

@@ -32,10 +32,18 @@ typedef void counting_tinted(const counting_points *points, size_t count, const 
 
 counting_tinted counting_tinted_1, counting_tinted_4, counting_tinted_8, counting_tinted_16;
 
+/* counting_kernel with one realisation for all: draw, uniform in 32 bits, chooses. The mean over draws is the factor of
+ * counting_kernel, but for 2^-24 of chance. */
+typedef void counting_drawn(const counting_points *points, const uint32_t *draw, size_t count, float *factor,
+                            float *facets);
+
+counting_drawn counting_drawn_1, counting_drawn_4, counting_drawn_8, counting_drawn_16;
+
 typedef struct counting_width {
     size_t lanes;
     counting_kernel *kernel;
     counting_tinted *tinted;
+    counting_drawn *drawn;
 } counting_width;
 
 /* The widest kernel that this machine runs, at most max_lanes wide. */

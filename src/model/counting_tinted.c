@@ -53,7 +53,7 @@ static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat
         vfloat weight[12], dither[GRID_CELLS], count[12];
         angular_draws(&lattice, grid, g, uniform, weight, dither);
         const vfloat trials = drawn * grid->share[g];
-        sum = sum + binomial_weighted_draws(trials, &chance, uniform, weight, dither, count);
+        sum = sum + binomial_weighted_draws(trials, &chance, uniform, weight, dither, count, (binomial_many){ 3, 4 });
         for (int i = 0; i < 12; i++)
             count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
         add_tints(palette, grid->cell + GRID_CELLS * g, uniform, weight, count, tints);
