@@ -50,8 +50,23 @@ static inline vint binomial_threshold(vfloat s, vfloat dither)
 {
     const vfloat most = splat(2147483520.0F); /* the largest float below 2^31 */
     const vfloat t = max_f(s, splat(0.0F)) * 2147483648.0F + dither;
-    const vint scaled = (vint)((vuint)to_int(min_f(t, most)) << 1 ^ 0x80000000U);
+    /* The smaller one by its bits: GCC 12 converts both and then chooses, and 2^31 is no integer to convert. */
+    const vfloat fits = float_from_bits((vuint)min_i((vint)bits_of(t), (vint)bits_of(most)));
+    const vint scaled = (vint)((vuint)to_int(fits) << 1 ^ 0x80000000U);
     return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
+}
+
+/* One step of the walk for four draws: those whose uniform is below the threshold count one more. */
+static inline __attribute__((always_inline)) vfloat binomial_count(vint threshold, const vint u[4],
+                                                                   const vfloat weight[4], vfloat sum, vfloat *drawn)
+{
+    for (int i = 0; i < 4; i++) {
+        const vmask more = less_i(u[i], threshold);
+        sum = add_where(more, sum, weight[i]);
+        if (drawn)
+            drawn[i] = add_where(more, drawn[i], splat(1.0F));
+    }
+    return sum;
 }
 
 /* Sum of weight[i] * X_i over twelve draws from b(trials, chance), in three groups of four with one dither each.
@@ -77,16 +92,16 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
     vfloat sum = splat(0.0F);
     vint u[12];
     for (int i = 0; i < 12; i++)
-        u[i] = uniform[i] ^ flip;
+        u[i] = uniform[i] ^ mask_bits(flip);
     for (int i = 0; drawn && i < 12; i++)
         drawn[i] = splat(0.0F);
 
     if (any(~wide)) {
-        static const float inverse[BINOMIAL_WALK_STEPS + 1] = {
-            0.0F,      1.0F / 1,  1.0F / 2,  1.0F / 3,  1.0F / 4,  1.0F / 5,  1.0F / 6,  1.0F / 7,  1.0F / 8,
-            1.0F / 9,  1.0F / 10, 1.0F / 11, 1.0F / 12, 1.0F / 13, 1.0F / 14, 1.0F / 15, 1.0F / 16, 1.0F / 17,
-            1.0F / 18, 1.0F / 19, 1.0F / 20, 1.0F / 21, 1.0F / 22, 1.0F / 23, 1.0F / 24, 1.0F / 25, 1.0F / 26,
-            1.0F / 27, 1.0F / 28, 1.0F / 29, 1.0F / 30, 1.0F / 31, 1.0F / 32
+        static const float inverse[BINOMIAL_WALK_STEPS] = {
+            0.0F,      1.0F / 1,  1.0F / 2,  1.0F / 3,  1.0F / 4,  1.0F / 5,  1.0F / 6,  1.0F / 7,
+            1.0F / 8,  1.0F / 9,  1.0F / 10, 1.0F / 11, 1.0F / 12, 1.0F / 13, 1.0F / 14, 1.0F / 15,
+            1.0F / 16, 1.0F / 17, 1.0F / 18, 1.0F / 19, 1.0F / 20, 1.0F / 21, 1.0F / 22, 1.0F / 23,
+            1.0F / 24, 1.0F / 25, 1.0F / 26, 1.0F / 27, 1.0F / 28, 1.0F / 29, 1.0F / 30, 1.0F / 31
         };
         vfloat em1, mass;
         exp_both(n * chance->log_miss, &em1, &mass);
@@ -98,25 +113,23 @@ binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint
         vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
         /* A step of 0 keeps lanes that are not walked from overflowing. */
         vfloat survival = -em1, step = choose(wide, splat(0.0F), n * chance->odds);
-        vint threshold[3];
+        vint first[3];
         for (int g = 0; g < 3; g++)
-            threshold[g] = binomial_threshold(survival + b * mass, dither[g]);
-        for (int k = 0; k < BINOMIAL_WALK_STEPS; k++) {
-            if (k > 0)
-                threshold[0] = threshold[1] = threshold[2] = binomial_threshold(survival + b * mass, splat(0.0F));
-            if (!any(less_i(least, threshold[0]) | less_i(least, threshold[1]) | less_i(least, threshold[2])))
-                break;
-            /* Denormals would cost up to four times as much. */
-            mass = max_f(mass * step * inverse[k + 1], splat(1e-30F));
-            step = step - chance->odds;
-            survival = survival - mass;
+            first[g] = binomial_threshold(survival + b * mass, dither[g]);
+        if (any(less_i(least, first[0]) | less_i(least, first[1]) | less_i(least, first[2]))) {
             for (int g = 0; g < 3; g++)
-                for (int i = 4 * g; i < 4 * g + 4; i++) {
-                    const vmask more = less_i(u[i], threshold[g]);
-                    group[g] = group[g] + choose(more, weight[i], splat(0.0F));
-                    if (drawn)
-                        drawn[i] = drawn[i] + choose(more, splat(1.0F), splat(0.0F));
-                }
+                group[g] = binomial_count(first[g], u + 4 * g, weight + 4 * g, group[g], drawn ? drawn + 4 * g : drawn);
+            for (int k = 1; k < BINOMIAL_WALK_STEPS; k++) {
+                /* Denormals would cost up to four times as much. */
+                mass = max_f(mass * step * inverse[k], splat(1e-30F));
+                step = step - chance->odds;
+                survival = survival - mass;
+                const vint next = binomial_threshold(survival + b * mass, splat(0.0F));
+                if (!any(less_i(least, next)))
+                    break;
+                for (int g = 0; g < 3; g++)
+                    group[g] = binomial_count(next, u + 4 * g, weight + 4 * g, group[g], drawn ? drawn + 4 * g : drawn);
+            }
         }
         sum = group[0] + group[1] + group[2];
     }

@@ -14,8 +14,9 @@
  * of the facets gives it back: over a large patch the variance is that of the facets themselves. */
 #define ANGULAR_SHARE 0.444444444F
 
-/* Below this expected count, a lit facet would be 1e20 times the smooth light and seen never. */
-#define LEAST_COUNT 1e-20F
+/* Below this expected count nothing is counted: a lit facet would be 3e9 times the smooth light and seen never. A
+ * chance is known to 2^-47 (binomial_threshold), which on four grids is 1e-4 of this. */
+#define LEAST_COUNT 3e-10F
 
 /* A pixel well inside one facet sees it lit or not: variance (1 - p) / p. The blending over cells leaves half of the
  * variance of a count, so the cells have half of a facet's area. Over a large patch the size of the cells does not
@@ -88,7 +89,7 @@ static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat 
     weight[2] = gx * up;
     weight[3] = fx * up;
 
-    const vuint lattice = (vuint)(l->level + coarse) * HASH_Z;
+    const vuint lattice = (vuint)(l->level + mask_bits(coarse)) * HASH_Z;
     const vuint corner = (cell + (vuint)(x >> 16)) * HASH_X + (vuint)(y >> 16) * HASH_Y + lattice;
     uniform[0] = (vint)hash_top(corner);
     uniform[1] = (vint)hash_top(corner + HASH_X);

@@ -73,8 +73,8 @@ void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t c
 {
     for (size_t i = 0; i < count; i += GLINT_LANES) {
         const counting_pixel pixel = counting_pixel_of(points, i);
-        const grid_point grid =
-            grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i));
+        grid_point grid;
+        grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i), &grid);
         vfloat f[3];
         lit_factors(&grid, pixel.ellipse.area * pixel.density, load_f(points->hx + i), load_f(points->hy + i),
                     load_f(points->cap + i), load_f(points->p + i), palette, f);
