@@ -98,8 +98,7 @@ static void keep_warning(const char *text, void *user)
     if (grown == NULL)
         return;
     s->warnings = grown;
-    memcpy(&grown[s->warnings_length], text, length);
-    memcpy(&grown[s->warnings_length + length], "\n", 2);
+    snprintf(&grown[s->warnings_length], length + 2, "%s\n", text);
     s->warnings_length += length + 1;
 }
 

@@ -323,9 +323,16 @@ static void steps_of_any_size_give_the_same_bits(void **state)
     glint_preview_scene_destroy(s);
 }
 
-static void *refine_for_long(void *picture)
+typedef struct long_work {
+    glint_preview_picture *picture;
+    glint_preview_result result;
+} long_work;
+
+static void *refine_for_long(void *argument)
 {
-    return (void *)(intptr_t)glint_preview_picture_refine(picture, 65536, NULL, 0);
+    long_work *const work = argument;
+    work->result = glint_preview_picture_refine(work->picture, 65536, NULL, 0);
+    return NULL;
 }
 
 static void cancelling_from_another_thread_ends_soon_and_can_be_taken_back(void **state)
@@ -341,11 +348,11 @@ static void cancelling_from_another_thread_ends_soon_and_can_be_taken_back(void 
     o.samples = 65536; /* minutes */
     glint_preview_picture *const p = begin(s, &o);
     pthread_t thread;
-    void *result;
-    assert_int_equal(pthread_create(&thread, NULL, refine_for_long, p), 0);
+    long_work work = { p, GLINT_PREVIEW_OK };
+    assert_int_equal(pthread_create(&thread, NULL, refine_for_long, &work), 0);
     glint_preview_picture_cancel(p, 1);
-    pthread_join(thread, &result);
-    assert_int_equal((intptr_t)result, GLINT_PREVIEW_CANCELLED);
+    pthread_join(thread, NULL);
+    assert_int_equal(work.result, GLINT_PREVIEW_CANCELLED);
     assert_int_equal(glint_preview_picture_refine(p, 1, NULL, 0), GLINT_PREVIEW_CANCELLED);
     glint_preview_picture_destroy(p);
     o.width = o.height = 8;
@@ -362,7 +369,8 @@ static void cancelling_from_another_thread_ends_soon_and_can_be_taken_back(void 
 
 static void refuse(const glint_preview_scene_options *o, const char *named)
 {
-    glint_preview_scene *s = (glint_preview_scene *)(intptr_t)1;
+    static char elsewhere;
+    glint_preview_scene *s = (void *)&elsewhere;
     char message[512] = "";
     assert_int_equal(glint_preview_scene_create(o, &s, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
     assert_null(s);
@@ -472,7 +480,8 @@ static void materials_and_images_that_make_no_sense_are_named(void **state)
 
 static void refuse_picture(const glint_preview_scene *s, const glint_preview_picture_options *o, const char *named)
 {
-    glint_preview_picture *p = (glint_preview_picture *)(intptr_t)1;
+    static char elsewhere;
+    glint_preview_picture *p = (void *)&elsewhere;
     char message[512] = "";
     assert_int_equal(glint_preview_picture_create(s, o, &p, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
     assert_null(p);
