@@ -1,0 +1,63 @@
+# stability_digest, built several times from the library's own sources: by the compiler of the tree and by clang, without
+# optimisation and with all of it. The test `compilers` runs them all and compares what they print.
+find_program(GLINT_CLANG NAMES clang-14 clang)
+set(digest_library glint footprint_objects ndf_objects light_objects model_objects ${kernels})
+set(digest_programs "")
+
+# Objects and a program in the folder <name>, by <compiler> with the flags that follow.
+function(digest_variant name compiler)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/digest_${name})
+  file(MAKE_DIRECTORY ${folder})
+  set(objects "")
+  foreach(target IN LISTS digest_library ITEMS digest)
+    if(target STREQUAL "digest")
+      set(sources digest.c)
+      set(directory ${CMAKE_CURRENT_SOURCE_DIR})
+      set(flags -I${PROJECT_SOURCE_DIR}/tests/support)
+    else()
+      get_target_property(sources ${target} SOURCES)
+      get_target_property(directory ${target} SOURCE_DIR)
+      set(flags "")
+      if(target MATCHES "^counting_kernel_([0-9]+)$")
+        set(flags -DGLINT_LANES=${CMAKE_MATCH_1})
+        get_target_property(options ${target} COMPILE_OPTIONS)
+        list(FILTER options INCLUDE REGEX "^-m")
+        list(APPEND flags ${options})
+      endif()
+    endif()
+    foreach(source IN LISTS sources)
+      set(object ${folder}/${target}_${source}.o)
+      add_custom_command(OUTPUT ${object}
+        COMMAND ${CMAKE_C_COMPILER_LAUNCHER} ${compiler} -std=gnu11 -fvisibility=hidden -ffp-contract=off -fno-math-errno -w ${ARGN}
+          ${flags} ${digest_includes} -MD -MF ${object}.d -c ${directory}/${source} -o ${object}
+        DEPENDS ${directory}/${source} DEPFILE ${object}.d
+        COMMENT "Building ${source} for the digest of ${name}" VERBATIM)
+      list(APPEND objects ${object})
+    endforeach()
+  endforeach()
+  set(program ${folder}/stability_digest)
+  add_custom_command(OUTPUT ${program} COMMAND ${compiler} ${objects} -o ${program} ${CMOCKA_LDFLAGS} -lm DEPENDS ${objects} VERBATIM)
+  add_custom_target(digest_${name} ALL DEPENDS ${program})
+  set(digest_programs ${digest_programs} ${name}=${program} PARENT_SCOPE)
+endfunction()
+
+set(digest_includes "")
+foreach(folder glint.h math ndf footprint light model)
+  glint_view(${folder})
+  list(APPEND digest_includes -I${PROJECT_BINARY_DIR}/views/${folder})
+endforeach()
+
+# The build's own objects are the fourth of the tree's compiler.
+add_executable(stability_digest digest.c)
+target_link_libraries(stability_digest PRIVATE glint_flags footprint_objects ndf_objects light_objects model_objects ${kernels} glint PkgConfig::CMOCKA m)
+glint_see(stability_digest glint.h math ndf footprint light model)
+target_include_directories(stability_digest PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+set_target_properties(stability_digest PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+digest_variant(O0 ${CMAKE_C_COMPILER} -O0)
+digest_variant(O2 ${CMAKE_C_COMPILER} -O2 -fno-tree-slp-vectorize)
+if(GLINT_CLANG AND NOT CMAKE_C_COMPILER_ID STREQUAL "Clang")
+  digest_variant(clang_O0 ${GLINT_CLANG} -O0)
+  digest_variant(clang_O3 ${GLINT_CLANG} -O3)
+endif()
+add_test(NAME compilers COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/compilers.sh build=$<TARGET_FILE:stability_digest> ${digest_programs})
+set_tests_properties(compilers PROPERTIES TIMEOUT 120)
