@@ -38,6 +38,8 @@ bool stage_check_options(const preview_options *o, report *r)
         !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r) ||
         !check_range("facets", (int)o->facets, PREVIEW_FACETS_OWN, PREVIEW_FACETS_POVRAY, r))
         return false;
+    if (!(o->accuracy >= 0.0 && o->accuracy <= 1.0))
+        return report_error(r, "preview: accuracy is %g; expected 0 to 1", o->accuracy);
     if (o->threads < 0)
         return report_error(r, "preview: threads is %d; expected 0 (one a core) or more", o->threads);
     if (o->tile_width == 0)
@@ -114,7 +116,7 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
         return false;
     const double loaded = now_s();
     st->shader = (shader){ s, &st->materials, st->textures };
-    if (!set_environment(st, o, r) || !materials_make(s, o->model, o->facets, &st->materials, r) ||
+    if (!set_environment(st, o, r) || !materials_make(s, o->model, o->facets, NULL, &st->materials, r) ||
         !geometry_make(s, &st->geometry, r) || !trace_build(&st->geometry, opacity_at, st, &st->trace, r) ||
         !emitters_make(&st->geometry, &st->emitters, r))
         return false;
@@ -153,16 +155,19 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
                             .bounces = o->bounces,
                             .spp = o->spp,
                             .footprint_side = preview_footprint_side(o->spp),
+                            .glint_side = preview_glint_side(o),
                             .seed = o->seed } };
     if (st->emitters.count > 0 && o->bounces > 0)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
-    return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r);
+    return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, r));
 }
 
 void view_take_down(view *v)
 {
     free(v->lights);
+    planned_free(&v->planned);
 }
 
 static unsigned default_facet_limit(void)

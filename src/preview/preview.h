@@ -47,12 +47,14 @@ typedef struct preview_options {
     const preview_sky *sky;    /* NULL: that of the lookdev rig where the scene has no lights, else black */
     bool transparent;          /* camera rays do not see the sky: alpha 0 there */
     const preview_environment *environment; /* in place of any sky; NULL: that of the scene, if it has one */
+    double accuracy; /* [0, 1], the error that a picture may have for speed: relative, root mean square over pixels,
+                        against accuracy 0, which leaves nothing out. docs/plan.md */
 } preview_options;
 
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
         sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, PREVIEW_FACETS_OWN, 0, false, \
-            0, 0, 0, 0, false, 0                                                                                       \
+            0, 0, 0, 0, false, 0, 0.0                                                                                  \
     }
 
 typedef struct preview_statistics {
