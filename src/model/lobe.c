@@ -55,7 +55,8 @@ void lobe_halve(const model_query *q, lobe_value *value)
 {
     vec3 sum = vec3_add(q->wo, q->wi);
     float length2 = vec3_dot(sum, sum), unit = 1.0F;
-    /* Opposite along the ground, the sum is so short that its square is no number; its direction is one all the same. */
+    /* Opposite along the ground, the sum is so short that its square is no number; its direction is one all the same.
+     */
     if (!(length2 > 1e-30F)) {
         sum = vec3_scale(sum, 1e30F);
         length2 = vec3_dot(sum, sum);
