@@ -398,7 +398,8 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->dudy[i],
                                               batch->dvdx[i],
                                               batch->dvdy[i],
-                                              batch->seed ? batch->seed[i] : 0U };
+                                              batch->seed ? batch->seed[i] : 0U,
+                                              batch->draw ? batch->draw[i] : 0U };
             batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
             if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
                 !light_entry(&c[j], batch, i))

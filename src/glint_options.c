@@ -187,6 +187,8 @@ static void check_values(complaint *c, const glint_material_options *o)
     check(c, "elongation", o->elongation, 1.0F, 1e4F);
     check(c, "density_variation", o->density_variation, 0.0F, 8.0F);
     check(c, "max_anisotropy", o->max_anisotropy, 1.0F, 16.0F);
+    check(c, "smooth_deviation", o->smooth_deviation, 0.0F, 1e6F);
+    check(c, "draw_deviation", o->draw_deviation, 0.0F, 1e6F);
     check_colors(c, o);
     if (o->fresnel == GLINT_FRESNEL_DIELECTRIC)
         check(c, "ior", o->ior, 1.0001F, 10.0F);
