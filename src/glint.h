@@ -206,6 +206,15 @@ typedef struct glint_material_options {
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
     glint_layers layers;               /* for GLINT_MODEL_LAYERED */
     glint_area_light_method area_light_method;
+    /* What need not be counted; counting only. Relative standard deviations of one evaluation, [0, 1e6]; 0: count all.
+     *
+     * smooth_deviation  Where the facets under the footprint vary by less than about this, 1 / sqrt(N p), the smooth
+     *                   value stands for them. From there up to twice as much they are blended in, and what is left out
+     *                   never varies by more than this. The mean stays.
+     * draw_deviation    Where one of the model's 48 realisations varies by less than this, 3 / sqrt(N p), one stands
+     * for all; glint_footprint.draw chooses, and the mean over draws is the sum of all. Not of facets of different
+     * colours. */
+    float smooth_deviation, draw_deviation;
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -236,7 +245,7 @@ typedef struct glint_material_options {
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT, GLINT_AREA_LIGHT_FAST                     \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT, GLINT_AREA_LIGHT_FAST, 0.0F, 0.0F         \
     }
 
 typedef struct glint_material glint_material;
@@ -293,6 +302,7 @@ typedef struct glint_footprint {
     float dudx, dudy; /* metres per pixel, to the right (x) and downwards (y) */
     float dvdx, dvdy;
     uint32_t seed; /* which object this is: added to the material's seed; 0 is fine */
+    uint32_t draw; /* for draw_deviation: even over all 32-bit numbers, another one for every sample of a pixel */
 } glint_footprint;
 
 typedef enum glint_light_kind {
@@ -427,11 +437,12 @@ typedef struct glint_batch {
     const glint_surface *surfaces;       /* NULL: the material's own everywhere */
     float *rgb[3];                       /* out */
     const glint_area_light *area_lights; /* NULL: caps. Else wi and solid_angle_sr are not read, and may be NULL */
+    const uint32_t *draw;                /* NULL: 0 everywhere */
 } glint_batch;
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0                    \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0, 0                 \
     }
 
 /* glint_eval, or glint_eval_area, for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is

@@ -11,6 +11,7 @@ typedef struct render_values {
     assignments materials;
     int64_t size[2], tile[4]; /* tile: x, y, width, height; width 0: the whole picture */
     int64_t spp, threads, seed, bounces;
+    double accuracy;
     int model;          /* see arguments_model_choice */
     int facets;         /* a preview_facets */
     double exposure_ev; /* NAN: not given */

@@ -52,6 +52,20 @@ static vec3d transform(const ltc *l, vec3d v)
 
 /* ---- the light, moved ---- */
 
+/* The angle between unit vectors over its sine, by their scalar product in [-1, 1]; relative error below 3e-9.
+ * Interpolated at the Chebyshev nodes of 1 - x in [0, 1]. */
+static double angle_over_sine(double cosine)
+{
+    /* By Estrin's scheme, whose steps wait less for each other than Horner's. */
+    const double y = 1.0 - fabs(cosine), y2 = y * y, y4 = y2 * y2;
+    const double p0 = 1.0000000016817341 + 0.3333329271689951 * y, p2 = 0.1333494156142809 + 0.056896698215951551 * y;
+    const double p4 = 0.027309139201823915 + 0.0029899804229361754 * y,
+                 p6 = 0.02876296956848861 - 0.037681055414478498 * y,
+                 p8 = 0.043536176732066625 - 0.024990347118794245 * y + 0.0072904174528296362 * y2;
+    const double p = (p0 + p2 * y2) + y4 * ((p4 + p6 * y2) + p8 * y4);
+    return cosine >= 0.0 ? p : REAL_PI / sqrt(real_max(y * (2.0 - y), 1e-30)) - p;
+}
+
 static void move_polygon(const ltc *l, const area_light *light, ltc_light *moved)
 {
     int count = 0;
@@ -60,16 +74,18 @@ static void move_polygon(const ltc *l, const area_light *light, ltc_light *moved
         count += vec3d_dot(moved->corner[count], moved->corner[count]) > 0.5;
     }
     moved->corner[count] = moved->corner[0];
-    /* Lambert: half the sum of the sides' angles times their normals. */
-    vec3d sum = { 0.0, 0.0, 0.0 };
+    /* Lambert: half the sum of the sides' angles times their normals, as in area.c, with less care for the last digits.
+     */
+    vec3d sum = { 0.0, 0.0, 0.0 }, towards = { 0.0, 0.0, (double)count };
     for (int i = 0; i < count; i++) {
         const vec3d a = moved->corner[i], b = moved->corner[i + 1];
-        moved->normal[i] = vec3d_cross(a, b);
-        sum = vec3d_mad(sum, moved->normal[i], real_angle_over_sine(vec3d_dot(a, b)));
+        moved->normal[i] = vec3d_cross(a, vec3d_sub(b, a));
+        towards = vec3d_add(towards, a);
+        sum = vec3d_mad(sum, moved->normal[i], angle_over_sine(vec3d_dot(a, b)));
     }
     moved->side_count = count;
-    moved->middle = sum.z < 0.0 ? vec3d_scale(sum, -1.0) : sum;
-    moved->share = fabs(sum.z) * (0.5 / REAL_PI);
+    moved->middle = vec3d_dot(sum, towards) < 0.0 ? vec3d_scale(sum, -1.0) : sum;
+    moved->share = moved->middle.z * (0.5 / REAL_PI);
 }
 
 static void move_whole_cone(const ltc *l, const area_light *light, ltc_light *moved)

@@ -53,20 +53,6 @@ static inline double real_atan2(double y, double x)
     return x > 0.0 ? angle : y < 0.0 ? angle - REAL_PI : angle + REAL_PI;
 }
 
-/* The angle between unit vectors over its sine, by their scalar product in [-1, 1]; relative error below 3e-9.
- * Interpolated at the Chebyshev nodes of 1 - x in [0, 1]. */
-static inline double real_angle_over_sine(double cosine)
-{
-    /* By Estrin's scheme, whose steps wait less for each other than Horner's. */
-    const double y = 1.0 - fabs(cosine), y2 = y * y, y4 = y2 * y2;
-    const double p0 = 1.0000000016817341 + 0.3333329271689951 * y, p2 = 0.1333494156142809 + 0.056896698215951551 * y;
-    const double p4 = 0.027309139201823915 + 0.0029899804229361754 * y,
-                 p6 = 0.02876296956848861 - 0.037681055414478498 * y,
-                 p8 = 0.043536176732066625 - 0.024990347118794245 * y + 0.0072904174528296362 * y2;
-    const double p = (p0 + p2 * y2) + y4 * ((p4 + p6 * y2) + p8 * y4);
-    return cosine >= 0.0 ? p : REAL_PI / sqrt(real_max(y * (2.0 - y), 1e-30)) - p;
-}
-
 /* exp x for x <= 0; 0 below -700. */
 static inline double real_exp_negative(double x)
 {

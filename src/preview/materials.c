@@ -70,7 +70,15 @@ typedef struct layer_plan {
     float *normals;
 } layer_plan;
 
-static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, layer_plan *out, report *r)
+static void cut(const material_cut *c, glint_material_options *o)
+{
+    o->smooth_deviation = c->smooth_deviation;
+    o->draw_deviation = c->draw_deviation;
+    o->area_light_method = c->area_light_method;
+}
+
+static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, const material_cut *cuts,
+                       layer_plan *out, report *r)
 {
     const scene *const s = all->scene;
     const scene_material *const m = &s->materials[index];
@@ -78,9 +86,14 @@ static bool plan_layer(const materials *all, int index, scene_glint_layer layer,
     glint_model wanted = (glint_model)model;
     if (model == PREVIEW_MODEL_AUTO)
         wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
-    warn_of_unrendered(s, index, g, wanted, r);
+    if (cuts == NULL)
+        warn_of_unrendered(s, index, g, wanted, r);
+    else if (cuts[layer].smooth)
+        wanted = GLINT_MODEL_SMOOTH;
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
     choose_facets(all->facets, &out->options);
+    if (cuts != NULL)
+        cut(&cuts[layer], &out->options);
     return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
 }
 
@@ -103,13 +116,14 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const materials *all, int index, int model, material_layers *out, report *r)
+static bool make_layers(const materials *all, int index, int model, const material_cut *cuts, material_layers *out,
+                        report *r)
 {
     const scene *const s = all->scene;
     const bool is_coated = s->materials[index].clearcoat > 0.0F;
     layer_plan base = { 0 }, coat = { 0 };
-    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, &base, r) &&
-                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, &coat, r));
+    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, cuts, &base, r) &&
+                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, cuts, &coat, r));
     if (done && is_coated) {
         glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
         whole.model = GLINT_MODEL_LAYERED;
@@ -126,7 +140,8 @@ static bool make_layers(const materials *all, int index, int model, material_lay
     return done;
 }
 
-bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, const material_cut (*cuts)[2], materials *out,
+                    report *r)
 {
     *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
@@ -135,13 +150,15 @@ bool materials_make(const scene *s, int model, preview_facets facets, materials 
         return report_error(r, "no memory for %d materials", s->material_count);
 
     for (int i = 0; i < s->material_count; ++i) {
-        if (!make_layers(out, i, model, &out->layers[i], r)) {
+        if (!make_layers(out, i, model, cuts != NULL ? cuts[i] : NULL, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }
     }
-    warn_of_missing_texcoords(s, SCENE_LAYER_BASE, r);
-    warn_of_missing_texcoords(s, SCENE_LAYER_CLEARCOAT, r);
+    if (cuts == NULL) {
+        warn_of_missing_texcoords(s, SCENE_LAYER_BASE, r);
+        warn_of_missing_texcoords(s, SCENE_LAYER_CLEARCOAT, r);
+    }
     return true;
 }
 

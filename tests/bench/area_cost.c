@@ -1,7 +1,7 @@
 /* What lights of real size cost over a point light, in the counting model: the same points under the same views.
  *
- *     area_cost count KIND N    evaluates N points and says nothing: for programs that count instructions
- *     area_cost race [N]        prints ratios of times, all kinds in turn, so that what else the machine does hits all
+ *     area_cost FILE.json [ROUNDS]   races all kinds
+ *     area_cost count KIND N         evaluates N points and says nothing: for programs that count instructions
  *
  * KIND: point, sun, sphere, rectangle, disk or polygon, all of a thousandth to one steradian within 30 degrees of the
  * mirrored view, on GGX of alpha = .2; mixed: kinds, sizes, places and roughnesses at random; mixed-point: what mixed
@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "race.h"
 #include "study/area_cases.h"
 
 enum { CASES = 256, KINDS = 8 };
@@ -115,35 +115,49 @@ static void free_cases(cost_case cases[CASES])
         glint_material_destroy(cases[i].material);
 }
 
-static double now_s(void)
+/* One racer: a kind's cases, and a sum that keeps the compiler from leaving them out. */
+typedef struct cost_runner {
+    cost_case cases[CASES];
+    float sum;
+} cost_runner;
+
+static void run(void *user)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    cost_runner *r = user;
+    r->sum += evaluate_all(r->cases, CASES);
 }
 
-/* The least of many short runs of each kind, taken in turn: what the machine can do when nothing disturbs it. */
-static int race(int rounds)
+/* Kinds from first on, over the first of them. */
+static void race_kinds(FILE *json, const char *title, const int *kinds, size_t count, int rounds)
 {
-    static cost_case cases[KINDS][CASES];
-    double least[KINDS];
-    float sum = 0.0F;
-    for (int k = 0; k < KINDS; k++) {
-        make_cases(cases[k], k);
-        least[k] = 1e30;
+    static cost_runner runners[KINDS];
+    racer racers[KINDS];
+    race_result result[KINDS];
+    for (size_t i = 0; i < count; i++) {
+        make_cases(runners[i].cases, kinds[i]);
+        racers[i] = (racer){ kind_names[kinds[i]], run, &runners[i] };
     }
-    for (int r = 0; r < rounds; r++)
-        for (int k = 0; k < KINDS; k++) {
-            const double start = now_s();
-            sum += evaluate_all(cases[k], CASES);
-            least[k] = fmin(least[k], (now_s() - start) / CASES);
-        }
-    for (int k = 0; k < KINDS; k++) {
-        printf("%-12s %8.0f ns, %5.2f times a point\n", kind_names[k], least[k] * 1e9,
-               least[k] / least[k >= 6 ? 7 : 0]);
-        free_cases(cases[k]);
+    race(racers, count, CASES, rounds, result);
+    race_print(title, racers, count, result);
+    race_write(json, title, racers, count, result);
+    for (size_t i = 0; i < count; i++)
+        free_cases(runners[i].cases);
+}
+
+static int race_all(const char *path, int rounds)
+{
+    static const int near[] = { 0, 1, 2, 3, 4, 5 }, mixed[] = { 7, 6 };
+    FILE *const json = fopen(path, "w");
+    if (!json || rounds < 1) {
+        fprintf(stderr, "area_cost: %s cannot be written\n", path);
+        return 1;
     }
-    return sum >= 0.0F ? 0 : 1;
+    fputs("{\n", json);
+    race_kinds(json, "a light near the mirrored view", near, 6, rounds);
+    fputs(",\n", json);
+    race_kinds(json, "any light", mixed, 2, rounds);
+    fputs("\n}\n", json);
+    return fclose(json) != 0;
 }
 
 static int count(const char *kind, long n)
@@ -164,8 +178,8 @@ int main(int argc, char **argv)
 {
     if (argc == 4 && strcmp(argv[1], "count") == 0)
         return count(argv[2], strtol(argv[3], NULL, 10));
-    if ((argc == 2 || argc == 3) && strcmp(argv[1], "race") == 0)
-        return race(argc == 3 ? (int)strtol(argv[2], NULL, 10) : 200);
-    fputs("usage: area_cost count KIND N | race [N]\n", stderr);
+    if (argc == 2 || argc == 3)
+        return race_all(argv[1], argc == 3 ? (int)strtol(argv[2], NULL, 10) : 200);
+    fputs("usage: area_cost FILE.json [ROUNDS] | count KIND N\n", stderr);
     return 2;
 }

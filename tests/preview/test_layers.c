@@ -115,7 +115,7 @@ static void layers_one_by_one_give_the_numbers_of_the_layered_model(void **state
     materials made;
     textures *images = NULL;
     assert_true(camera_make(&from, 32, 32, &c, &r) &&
-                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, &made, &r) &&
+                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, NULL, &made, &r) &&
                 textures_open(&s, &images, &r));
     traced_open(&t, &s, NULL);
     const shader with = { &s, &made, images };
