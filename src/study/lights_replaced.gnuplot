@@ -1,0 +1,20 @@
+set title 'A panel on a floor: integrals replaced one by one (Fig. 7 of Kneiphof and Klein 2024)'
+set xlabel 'place on the floor, m; the panel stands at 1.5'
+set ylabel 'over the exact one'
+set y2label 'radiance factor'
+set y2tics textcolor rgb '#333333'
+set ytics nomirror
+set logscale y2
+set format y2 '10^{%L}'
+set key outside bottom center horizontal
+of(roughness, column_) = abs(column(1) - roughness) < 1e-3 ? column(column_) : NaN
+set datafile missing NaN
+plot [-2.5:1.4] [0.96:1.04] \
+    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 3)) axes x1y2 with lines linetype 7 linewidth 1 \
+        dashtype (r eq '0.3' ? 2 : 3) title 'highlight, √α '.r, \
+    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 5)) with lines linetype 1 \
+        dashtype (r eq '0.3' ? 1 : 2) title 'radiance fast, √α '.r, \
+    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 7)) with lines linetype 2 \
+        dashtype (r eq '0.3' ? 1 : 2) title 'light of a glint, p fast', \
+    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 8)) with lines linetype 3 \
+        dashtype (r eq '0.3' ? 1 : 2) title 'light of a glint, both fast'
