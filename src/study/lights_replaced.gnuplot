@@ -9,12 +9,13 @@ set format y2 '10^{%L}'
 set key outside bottom center horizontal
 of(roughness, column_) = abs(column(1) - roughness) < 1e-3 ? column(column_) : NaN
 set datafile missing NaN
+roughness(k) = real(word('0.3 0.6', k))
 plot [-2.5:1.4] [0.96:1.04] \
-    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 3)) axes x1y2 with lines linetype 7 linewidth 1 \
-        dashtype (r eq '0.3' ? 2 : 3) title 'highlight, √α '.r, \
-    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 5)) with lines linetype 1 \
-        dashtype (r eq '0.3' ? 1 : 2) title 'radiance fast, √α '.r, \
-    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 7)) with lines linetype 2 \
-        dashtype (r eq '0.3' ? 1 : 2) title 'light of a glint, p fast', \
-    for [r in '0.3 0.6'] 'lights_replaced.csv' using 2:(of(real(r), 8)) with lines linetype 3 \
-        dashtype (r eq '0.3' ? 1 : 2) title 'light of a glint, both fast'
+    for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 3)) axes x1y2 with lines linetype 7 linewidth 1 \
+        dashtype k title sprintf('highlight, √α %g', roughness(k)), \
+    for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 5)) with lines linetype 1 \
+        dashtype k title sprintf('radiance fast, √α %g', roughness(k)), \
+    for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 7)) with lines linetype 2 \
+        dashtype k title 'light of a glint, p fast', \
+    for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 8)) with lines linetype 3 \
+        dashtype k title 'light of a glint, both fast'
