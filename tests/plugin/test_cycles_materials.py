@@ -24,7 +24,7 @@ import numpy  # noqa: E402
 import blender_case  # noqa: E402
 from blender_case import folder, fresh  # noqa: E402
 
-SIZE, SAMPLES = 64, 512
+SIZE, SAMPLES = 48, 512
 
 
 def load(path):
@@ -83,7 +83,7 @@ class SameFlakes(unittest.TestCase):
     def setUp(self):
         fresh()
 
-    def pictures(self, name, model="explicit", samples=SAMPLES):
+    def pictures(self, name, model="explicit", samples=SAMPLES, ours=16):
         from glint import compat, reference
 
         path = os.path.join(folder(), name)
@@ -92,7 +92,7 @@ class SameFlakes(unittest.TestCase):
                                        seed=0, threads=0, smooth=False)
         reference.render(bpy.context.scene, values)
         subprocess.run([sys.argv[-1], "render", path + ".glb", "-o", path + ".exr", "--model", model, "--facets", "cycles",
-                        "--bounces", "0", "--size", f"{SIZE}x{SIZE}", "--spp", "64"], check=True,
+                        "--bounces", "0", "--size", f"{SIZE}x{SIZE}", "--spp", str(ours)], check=True,
                        stderr=subprocess.DEVNULL)
         return load(path + "_cycles.exr"), load(path + ".exr")
 
@@ -152,7 +152,7 @@ class SameFlakes(unittest.TestCase):
         bpy.context.scene.objects["Sphere"].scale = (1.2, 1.2, 1.2)
         bpy.context.view_layer.update()
         self.flakes(material, space="OBJECT", density_per_cm2=10.0)
-        self.hold("object")
+        self.hold("object", samples=1536, ours=128)
 
     def test_example_shows_its_texels(self):
         material = stage("plane")
@@ -166,7 +166,7 @@ class SameFlakes(unittest.TestCase):
             return 0.5 + 0.5 * n / numpy.linalg.norm(n)
 
         group.example_texture.image, group.example_texture.closest = image_of("texels", pixel), True
-        self.hold("example", correlation=0.9, mean=0.05, model="example")
+        self.hold("example", correlation=0.9, mean=0.05, model="example", ours=64)
 
 
 blender_case.run(SameFlakes)
