@@ -21,6 +21,7 @@ static const struct subcommand {
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "validate", "check the glint materials of glTF files and presets", command_validate },
     { "materials", "list the material presets, or show one", command_materials },
+    { "study", "measure what accuracy costs: tables, figures, a page", command_study },
 };
 
 enum { SUBCOMMAND_COUNT = sizeof subcommands / sizeof subcommands[0] };

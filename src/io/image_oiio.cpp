@@ -309,6 +309,8 @@ struct textures {
 
 bool mipmap_decode(const scene_image *picture, mipmap *out, report *r)
 {
+    if (picture->texels)
+        return mipmap_copy(picture, out, r);
     image_bytes bytes;
     if (!image_bytes_load(picture, &bytes, r))
         return false;

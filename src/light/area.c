@@ -43,18 +43,30 @@ static int cut_at_horizon(const vec3d *v, int count, vec3d *out)
 }
 
 /* Lambert: the integral of the direction over a spherical polygon is half the sum of its sides' angles times their
- * normals. */
+ * normals. A normal is found from one corner and the way to the next: the product of two directions that are nearly the
+ * same would have no digit of a small light. */
 static vec3d polygon_moment(const vec3d *corner, int count)
 {
     vec3d sum = { 0.0, 0.0, 0.0 };
     for (int i = 0; i < count; i++) {
         const vec3d a = corner[i], b = corner[(i + 1) % count];
-        const vec3d normal = vec3d_cross(a, b);
+        const vec3d normal = vec3d_cross(a, vec3d_sub(b, a));
         const double sine = vec3d_length(normal);
         if (sine > 0.0)
             sum = vec3d_mad(sum, normal, 0.5 * real_atan2(sine, vec3d_dot(a, b)) / sine);
     }
     return sum;
+}
+
+/* The same whichever way the corners run: towards the light, and up. A small light at the horizon has so little of
+ * either that both are asked. */
+static vec3d outward_moment(const vec3d *corner, int count)
+{
+    vec3d towards = { 0.0, 0.0, (double)count };
+    for (int i = 0; i < count; i++)
+        towards = vec3d_add(towards, corner[i]);
+    const vec3d moment = polygon_moment(corner, count);
+    return vec3d_dot(moment, towards) < 0.0 ? vec3d_scale(moment, -1.0) : moment;
 }
 
 void area_take_corners(area_light *l, const vec3d *corner, int count)
@@ -146,12 +158,9 @@ int area_measure(area_light *l)
 {
     if (l->kind == AREA_NOTHING)
         return 0;
-    l->moment = l->kind == AREA_CONIC ? conic_moment(&l->cone) : polygon_moment(l->corner, l->corner_count);
-    /* Above the horizon the cosine's integral is positive, whichever way the corners run. */
-    if (l->moment.z < 0.0)
-        l->moment = vec3d_scale(l->moment, -1.0);
+    l->moment = l->kind == AREA_CONIC ? conic_moment(&l->cone) : outward_moment(l->corner, l->corner_count);
     const double size = vec3d_length(l->moment);
-    if (!(size > 1e-26)) {
+    if (!(size > 1e-26) || !(l->moment.z > 0.0)) {
         l->kind = AREA_NOTHING;
         return 0;
     }

@@ -19,7 +19,7 @@ typedef void eval_chunk(const model_query *q, size_t count, counting_width width
 
 /* What setup makes. */
 typedef struct counting_baked {
-    counting_width width;
+    counting_width wide, narrow; /* for many points, and for one */
     eval_chunk *eval;
     int is_tinted;
     tint_palette palette;
@@ -50,6 +50,15 @@ counting_width counting_widest(size_t max_lanes)
 #endif
     (void)max_lanes;
     return (counting_width){ 1, counting_kernel_1, counting_tinted_1, counting_drawn_1 };
+}
+
+counting_width counting_narrowest(void)
+{
+#if defined(__x86_64__) || defined(__aarch64__)
+    if (counting_widest(4).lanes == 4)
+        return (counting_width){ 1, counting_alone, counting_tinted_alone, counting_drawn_1 };
+#endif
+    return counting_widest(1);
 }
 
 /* What a point makes of its light: the smooth reflection, and which facets are lit. */
@@ -260,17 +269,17 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
 static void counting_eval(const model_query *q, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
-    baked->eval(q, 1, (counting_width){ 1, counting_kernel_1, counting_tinted_1, counting_drawn_1 }, value);
+    baked->eval(q, 1, baked->narrow, value);
 }
 
 static void counting_eval_many(const model_query *q, size_t number, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
     for (size_t i = 0; i < number; i += CHUNK)
-        baked->eval(q + i, number - i < CHUNK ? number - i : CHUNK, baked->width, value + i);
+        baked->eval(q + i, number - i < CHUNK ? number - i : CHUNK, baked->wide, value + i);
 }
 
-/* Which width this machine runs, and the palette, are found once, when the material is made. */
+/* Which widths this machine runs, and the palette, are found once, when the material is made. */
 static glint_result counting_setup(struct glint_material *material)
 {
     const glint_material_options *o = &material->options;
@@ -279,8 +288,8 @@ static glint_result counting_setup(struct glint_material *material)
     if (!baked)
         return GLINT_ERROR_MEMORY;
     const int leaves_out = o->smooth_deviation > 0.0F || o->draw_deviation > 0.0F;
-    *baked = (counting_baked){ counting_widest(16), leaves_out ? eval_what_shows : eval_all, tint_is_asked(o),
-                               tint_palette_of(o) };
+    *baked = (counting_baked){ counting_widest(16), counting_narrowest(), leaves_out ? eval_what_shows : eval_all,
+                               tint_is_asked(o), tint_palette_of(o) };
     material->baked = baked;
     return GLINT_OK;
 }

@@ -49,7 +49,7 @@ static vfloat draw_grid(const grid_shape *shape, vfloat expected, vfloat random,
         size[g] = sqrt_f(shares[g] * (shares[g] + inverse));
         total = total + size[g];
     }
-    drawn_part part = { random * total, splat_i(0) };
+    drawn_part part = { random * total, mask_none() };
     *vertex = all[GRID_COUNT - 1];
     *share = shares[GRID_COUNT - 1];
     vfloat taken = size[GRID_COUNT - 1];
@@ -65,7 +65,7 @@ static vfloat draw_grid(const grid_shape *shape, vfloat expected, vfloat random,
 
 static vfloat draw_cell(const vuint cells[GRID_CELLS], const vfloat weights[GRID_CELLS], vfloat random, vuint *cell)
 {
-    drawn_part part = { random, splat_i(0) };
+    drawn_part part = { random, mask_none() };
     vfloat weight = weights[GRID_CELLS - 1];
     *cell = cells[GRID_CELLS - 1];
     for (int i = 0; i < GRID_CELLS - 1; i++) {
@@ -78,7 +78,7 @@ static vfloat draw_cell(const vuint cells[GRID_CELLS], const vfloat weights[GRID
 
 static vint draw_corner(const vint uniforms[4], const vfloat weights[4], vfloat random)
 {
-    drawn_part part = { random, splat_i(0) };
+    drawn_part part = { random, mask_none() };
     vint uniform = uniforms[3];
     for (int i = 0; i < 3; i++)
         uniform = choose_i(falls_into(&part, weights[i]), uniforms[i], uniform);

@@ -68,6 +68,9 @@ static void every_width_gives_the_same_bits(void **state)
             assert_memory_equal(factor, reference, sizeof(factor));
             assert_memory_equal(other, facets, sizeof(other));
         }
+        counting_narrowest().kernel(&points, COUNT, factor, other);
+        assert_memory_equal(factor, reference, sizeof(factor));
+        assert_memory_equal(other, facets, sizeof(other));
         for (int i = 0; i < COUNT; i++)
             assert_true(isfinite(reference[i]) && reference[i] >= 0.0F && isfinite(facets[i]) && facets[i] >= 0.0F);
     }
@@ -221,6 +224,9 @@ static void every_width_gives_the_same_tints(void **state)
             assert_memory_equal(factor, reference, sizeof(factor));
             assert_memory_equal(other, facets, sizeof(other));
         }
+        counting_narrowest().tinted(&points, COUNT, &palette, to_factor, other);
+        assert_memory_equal(factor, reference, sizeof(factor));
+        assert_memory_equal(other, facets, sizeof(other));
         for (int i = 0; i < 3 * COUNT; i++)
             assert_true(isfinite(reference[i % 3][i / 3]) && reference[i % 3][i / 3] >= 0.0F);
     }

@@ -17,10 +17,10 @@ bl_info = {
 
 import bpy
 
-from . import gltf, panel, presets, properties
+from . import engine, gltf, panel, presets, properties, render_settings
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
 
-MODULES = (properties, presets, panel)
+MODULES = (properties, presets, panel, render_settings, engine)
 
 
 def register():

@@ -35,3 +35,34 @@ def import_gltf(path):
         if name in properties:
             settings[name] = "COMPAT"
     return bpy.ops.import_scene.gltf(**settings)
+
+
+def corner_normals(mesh):
+    """Normals of the corners of all faces, a row each."""
+    import numpy
+
+    values = numpy.empty(3 * len(mesh.loops), numpy.float32)
+    if hasattr(mesh, "corner_normals"):  # 4.1
+        mesh.corner_normals.foreach_get("vector", values)
+    else:
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", values)
+    return values.reshape(-1, 3)
+
+
+def uv_values(layer, corner_count):
+    """Texture coordinates of the corners of all faces, a row each."""
+    import numpy
+
+    values = numpy.empty(2 * corner_count, numpy.float32)
+    if hasattr(layer, "uv"):  # 3.5
+        layer.uv.foreach_get("vector", values)
+    else:
+        layer.data.foreach_get("uv", values)
+    return values.reshape(-1, 2)
+
+
+
+def engine_has_init():
+    """RenderEngine.__init__ exists for Python since 4.4, and must then be called."""
+    return bpy.app.version >= (4, 4, 0)
