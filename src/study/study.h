@@ -86,7 +86,7 @@ report *study_report(study_run *run);
 enum {
     STUDY_LAW,
     STUDY_LIGHTS,
-    STUDY_LIGHT_METHODS,
+    STUDY_INTEGRALS,
     STUDY_LOOK_UPS,
     STUDY_MODELS,
     STUDY_IMAGES,

@@ -6,7 +6,7 @@
 #include "study/area_cases.h"
 #include "study/study.h"
 
-extern const unsigned char light_methods_gnuplot[];
+extern const unsigned char integrals_gnuplot[];
 
 enum { POINT, FAST, EXACT, GRID_2, GRID_4, GRID_8, GRID_16, RANDOM_4, RANDOM_16, RANDOM_64, RANDOM_256, METHODS };
 
@@ -141,7 +141,7 @@ static double bar_of(const double *sorted, int count, double quantile)
 static void report_fronts(study_run *run, const double cost[METHODS], double *errors, int count)
 {
     static const study_dial usual = {
-        "light_methods_front.csv",
+        "integrals_front.csv",
         "A light of real size, in the median.",
         "ns a light",
         "cost_ns",
@@ -149,7 +149,7 @@ static void report_fronts(study_run *run, const double cost[METHODS], double *er
         "Take the fast integral; the exact one for anisotropic roughness and references."
     };
     static const study_dial rare = {
-        "light_methods_worst_front.csv",
+        "integrals_worst_front.csv",
         "The same for all but one light in twenty.",
         "ns a light",
         "cost_ns",
@@ -180,7 +180,7 @@ static void measure_all(study_run *run, const glint_material *m[2], int wanted, 
 {
     const int count = find_cases(run, wanted, m[0], cases);
     double cost[METHODS];
-    study_table(run, "light_methods.csv", "method,roughness,solid_angle_sr,radiance,error");
+    study_table(run, "integrals.csv", "method,roughness,solid_angle_sr,radiance,error");
     for (int k = 0; k < METHODS && study_goes_on(run, 0.6 + 0.2 * k / METHODS); k++)
         measure_method(run, k, m, cases, count, errors + (size_t)k * (size_t)count);
     study_end_table(run);
@@ -200,7 +200,7 @@ static void measure(study_run *run)
     measured *const cases = calloc((size_t)wanted, sizeof *cases);
     double *const errors = calloc((size_t)wanted * METHODS, sizeof *errors);
     if (!cases || !errors)
-        report_error(study_report(run), "light-methods: no memory for %d lights", wanted);
+        report_error(study_report(run), "integrals: no memory for %d lights", wanted);
     else if (fast && exact)
         measure_all(run, (const glint_material *[2]){ fast, exact }, wanted, cases, errors);
     free(cases);
@@ -210,16 +210,16 @@ static void measure(study_run *run)
 }
 
 static const study_figure figures[] = {
-    { "light_methods",
+    { "integrals",
       "Cost and error of ways to integrate over a rectangle. Lower left is better; lines join what nothing beats.",
-      light_methods_gnuplot },
+      integrals_gnuplot },
     { NULL, NULL, NULL },
 };
 
-extern const study light_methods_study;
+extern const study integrals_study;
 
-const study light_methods_study = {
-    .name = "light-methods",
+const study integrals_study = {
+    .name = "integrals",
     .title = "Lights of real size: ways to integrate",
     .truth = "brute force on a fine grid of the light, in double, written without the library",
     .run = measure,
