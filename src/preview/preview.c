@@ -161,7 +161,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
     return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
-           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, r));
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, v->lights, r));
 }
 
 void view_take_down(view *v)
@@ -223,10 +223,32 @@ bool preview_render(const scene *s, const preview_options *options, image *out, 
     *out = (image){ 0 };
     bool ok = stage_check_options(options, r);
     ok = ok && stage_set_up(&st, s, options, &own, r) && view_set_up(&v, &st, options, r);
+    if (ok && options->planned != NULL)
+        options->planned(v.planned.plan, options->user);
     ok = ok && render(&st, &v.world, options, out, &own, r);
     view_take_down(&v);
     stage_take_down(&st);
     if (statistics != NULL)
         *statistics = own;
+    return ok;
+}
+
+bool preview_plan(const scene *s, const preview_options *options, glint_plan **plan, report *r)
+{
+    preview_statistics unused = { 0 };
+    stage st = { 0 };
+    view v = { 0 };
+    *plan = NULL;
+    bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+              view_set_up(&v, &st, options, r);
+    /* A view that leaves nothing out has not been looked at. */
+    if (ok && v.planned.plan == NULL)
+        ok = planned_make(&v.planned, options, &v.world, v.lights, r);
+    if (ok) {
+        *plan = v.planned.plan;
+        v.planned.plan = NULL;
+    }
+    view_take_down(&v);
+    stage_take_down(&st);
     return ok;
 }

@@ -1,17 +1,30 @@
 # stability_digest, built several times from the library's own sources: by the compiler of the tree and by clang, without
-# optimisation and with all of it. The test `compilers` runs them all and compares what they print.
+# optimisation and with all of it, and for another machine, whose vectors are NEON. The test `compilers` runs them all and
+# compares what they print.
 find_program(GLINT_CLANG NAMES clang-14 clang)
+find_program(GLINT_AARCH64 aarch64-linux-gnu-gcc)
+find_program(GLINT_QEMU_AARCH64 NAMES qemu-aarch64 qemu-aarch64-static)
 set(digest_library glint footprint_objects ndf_objects light_objects model_objects ${kernels})
 set(digest_programs "")
 
-# Objects and a program in the folder <name>, by <compiler> with the flags that follow.
+# Objects and a program in the folder <name>, by <compiler> with the flags that follow. ON <emulator>: for the machine that it
+# imitates, which has no cmocka and other widths.
 function(digest_variant name compiler)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "ON" "")
+  set(library ${digest_library})
+  set(own digest.c)
+  set(link ${CMOCKA_LDFLAGS})
+  if(arg_ON)
+    list(REMOVE_ITEM library counting_kernel_8 counting_kernel_16)
+    list(APPEND own no_cmocka.c)
+    set(link -static)
+  endif()
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/digest_${name})
   file(MAKE_DIRECTORY ${folder})
   set(objects "")
-  foreach(target IN LISTS digest_library ITEMS digest)
+  foreach(target IN LISTS library ITEMS digest)
     if(target STREQUAL "digest")
-      set(sources digest.c)
+      set(sources ${own})
       set(directory ${CMAKE_CURRENT_SOURCE_DIR})
       set(flags -I${PROJECT_SOURCE_DIR}/tests/support -I${PROJECT_SOURCE_DIR}/src/study)
     else()
@@ -22,13 +35,15 @@ function(digest_variant name compiler)
         set(flags -DGLINT_LANES=${CMAKE_MATCH_1})
         get_target_property(options ${target} COMPILE_OPTIONS)
         list(FILTER options INCLUDE REGEX "^-m")
-        list(APPEND flags ${options})
+        if(NOT arg_ON)
+          list(APPEND flags ${options})
+        endif()
       endif()
     endif()
     foreach(source IN LISTS sources)
       set(object ${folder}/${target}_${source}.o)
       add_custom_command(OUTPUT ${object}
-        COMMAND ${CMAKE_C_COMPILER_LAUNCHER} ${compiler} -std=gnu11 -fvisibility=hidden -ffp-contract=off -fno-math-errno -w ${ARGN}
+        COMMAND ${CMAKE_C_COMPILER_LAUNCHER} ${compiler} -std=gnu11 -fvisibility=hidden -ffp-contract=off -fno-math-errno -w ${arg_UNPARSED_ARGUMENTS}
           ${flags} ${digest_includes} -MD -MF ${object}.d -c ${directory}/${source} -o ${object}
         DEPENDS ${directory}/${source} DEPFILE ${object}.d
         COMMENT "Building ${source} for the digest of ${name}" VERBATIM)
@@ -36,9 +51,10 @@ function(digest_variant name compiler)
     endforeach()
   endforeach()
   set(program ${folder}/stability_digest)
-  add_custom_command(OUTPUT ${program} COMMAND ${compiler} ${objects} -o ${program} ${CMOCKA_LDFLAGS} -lm DEPENDS ${objects} VERBATIM)
+  add_custom_command(OUTPUT ${program} COMMAND ${compiler} ${objects} -o ${program} ${link} -lm DEPENDS ${objects} VERBATIM)
   add_custom_target(digest_${name} ALL DEPENDS ${program})
-  set(digest_programs ${digest_programs} ${name}=${program} PARENT_SCOPE)
+  list(APPEND digest_programs "${name}=${arg_ON} ${program}")
+  set(digest_programs ${digest_programs} PARENT_SCOPE)
 endfunction()
 
 set(digest_includes "")
@@ -58,6 +74,9 @@ digest_variant(O2 ${CMAKE_C_COMPILER} -O2 -fno-tree-slp-vectorize)
 if(GLINT_CLANG AND NOT CMAKE_C_COMPILER_ID STREQUAL "Clang")
   digest_variant(clang_O0 ${GLINT_CLANG} -O0)
   digest_variant(clang_O3 ${GLINT_CLANG} -O3)
+endif()
+if(GLINT_AARCH64 AND GLINT_QEMU_AARCH64 AND NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  digest_variant(aarch64 ${GLINT_AARCH64} -O3 -fno-tree-slp-vectorize ON ${GLINT_QEMU_AARCH64})
 endif()
 add_test(NAME compilers COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/compilers.sh build=$<TARGET_FILE:stability_digest> ${digest_programs})
 set_tests_properties(compilers PROPERTIES TIMEOUT 120)

@@ -198,7 +198,7 @@ static void far_cell(void)
     vuint low;
     row("place within a cell of 1 mm, 1000 km from the origin", "u / side - ⌊u / side⌋ in float",
         (double)(far - floorf(far)), (wide)u * (wide)cells - floorl((wide)u * (wide)cells),
-        (double)narrow(u * cells - grid_floor(u * cells, &low)), "the cell's number as an integer, the rest in double",
+        (double)grid_fraction(u * cells, &low), "the cell's number as an integer, the rest in double",
         "3·2⁻⁵³ of the distance in cells, and 2 roundings", "counting_edges");
 }
 
@@ -208,7 +208,7 @@ static void no_cell(void)
     const double x = 0x1p58 - 96.0, nearest = (x + 6755399441055744.0) - 6755399441055744.0;
     vuint low;
     row("weight of a cell that has no number any more, 2⁵⁸ cells out", "x - ⌊x⌋ with ⌊x⌋ by adding 1.5·2⁵²",
-        x - (x < nearest ? nearest - 1.0 : nearest), ANY_WEIGHT, (double)grid_fraction(narrow(x - grid_floor(x, &low))),
+        x - (x < nearest ? nearest - 1.0 : nearest), ANY_WEIGHT, (double)grid_fraction(x, &low),
         "kept in [0, 1]: weights add up to 1, and the mean stays", "mean exact", "counting_edges");
 }
 
