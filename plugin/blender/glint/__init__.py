@@ -15,10 +15,12 @@ bl_info = {
     "category": "Material",
 }
 
-from . import jobs, nodes, panel, preferences, presets, properties
+import bpy
+
+from . import engine, gltf, jobs, nodes, panel, preferences, presets, properties, render_settings
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
 
-MODULES = (preferences, properties, nodes, presets, jobs, panel)
+MODULES = (preferences, properties, nodes, presets, jobs, panel, render_settings, engine)
 
 
 def register():

@@ -124,6 +124,19 @@ def imported_image(gltf, index):
 # ---- meshes ----
 
 
+def corner_normals(mesh):
+    """Normals of the corners of all faces, a row each."""
+    import numpy
+
+    values = numpy.empty(3 * len(mesh.loops), numpy.float32)
+    if hasattr(mesh, "corner_normals"):  # 4.1
+        mesh.corner_normals.foreach_get("vector", values)
+    else:
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", values)
+    return values.reshape(-1, 3)
+
+
 def uv_arrays(layer, count):
     """u and v of every corner of a UV layer."""
     import numpy
@@ -137,6 +150,11 @@ def uv_arrays(layer, count):
 
 
 # ---- the add-on ----
+
+
+def engine_has_init():
+    """RenderEngine.__init__ exists for Python since 4.4, and must then be called."""
+    return bpy.app.version >= (4, 4, 0)
 
 
 def preferences(context, package):
