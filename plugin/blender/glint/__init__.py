@@ -15,9 +15,7 @@ bl_info = {
     "category": "Material",
 }
 
-import bpy
-
-from . import engine, gltf, jobs, nodes, panel, preferences, presets, properties, render_settings
+from . import engine, jobs, nodes, panel, preferences, presets, properties, render_settings
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
 
 MODULES = (preferences, properties, nodes, presets, jobs, panel, render_settings, engine)
