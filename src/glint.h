@@ -449,6 +449,141 @@ typedef struct glint_batch {
  * missing. */
 GLINT_API glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch);
 
+/* ---- the plan: what a picture may leave out ----
+ *
+ * Before a render a client looks at a few hundred pixels, says what it saw in a summary, and gets a plan: for each
+ * material and light what has to be done so that the picture stays within an error, with a reason, a cost and an error
+ * for each decision. docs/plan.md has the variances behind it. All errors are relative to the light of a pixel and root
+ * mean squares over the pixels. */
+
+enum { GLINT_PLAN_BINS = 48 };
+
+/* In which bin a pixel with so many lit facets, N p, belongs: powers of two from 2^-16 on; the last holds all above. */
+GLINT_API uint32_t glint_plan_bin(float lit_facets);
+
+typedef struct glint_plan_range {
+    float least, most;
+} glint_plan_range;
+
+/* A material over the picture, textures multiplied in. */
+typedef struct glint_plan_material {
+    const char *name;                   /* NULL: none */
+    const glint_material_options *base; /* as the scene asks for it */
+    const glint_material_options *coat; /* NULL: there is none */
+    float seen;                         /* [0, 1], samples that see it first */
+    uint32_t texture_count;             /* but for normal maps */
+    uint32_t normal_map_count;
+    uint32_t is_cut_out;            /* its alpha masks or blends */
+    glint_plan_range alpha;         /* alpha_x and alpha_y; these three are read where it is seen */
+    glint_plan_range facets_per_m2; /* 0: no facets are counted */
+    glint_plan_range footprint_m2;  /* of a pixel on the surface */
+} glint_plan_material;
+
+typedef enum glint_plan_light_kind {
+    GLINT_PLAN_LIGHT_CAP = 0,     /* evaluated around one direction */
+    GLINT_PLAN_LIGHT_SHAPE,       /* evaluated as a shape: glint_area_light */
+    GLINT_PLAN_LIGHT_SURROUNDINGS /* sampled: an environment, glowing surfaces */
+} glint_plan_light_kind;
+
+typedef struct glint_plan_light {
+    const char *name; /* NULL: none */
+    glint_plan_light_kind kind;
+    uint32_t patch_count; /* surroundings: patches of even light; 0: not known */
+    uint32_t shadow_rays, blocked_rays;
+} glint_plan_light;
+
+/* One light on one material, over the picture. */
+typedef struct glint_plan_pair {
+    uint32_t material, light;
+    float seen;                   /* evaluations per sample */
+    float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
+                                     this light's part of the pixel; 0 where no facets are counted */
+    float rate[GLINT_PLAN_BINS];  /* and how many evaluations per sample there are */
+} glint_plan_pair;
+
+typedef struct glint_plan_summary {
+    size_t size; /* set by GLINT_PLAN_SUMMARY_INIT */
+    const glint_plan_material *materials;
+    const glint_plan_light *lights;
+    const glint_plan_pair *pairs;
+    uint32_t material_count, light_count, pair_count;
+    uint32_t samples_per_pixel; /* >= 1 */
+    uint32_t tiles_per_pixel;   /* >= 1: a pixel's facets are counted in so many footprints side by side */
+    uint32_t pixel_count;       /* that were looked at */
+    uint32_t bounces;           /* of indirect light that are asked for */
+    float bounce_rays;          /* per sample */
+    float bounced;              /* what they bring to a pixel, relative */
+    float noise;                /* relative standard deviation of one sample, but for facets */
+    float error_budget;         /* (0, 1]; 0: nothing may be left out */
+    glint_allocator allocator;  /* all NULL: malloc and free */
+} glint_plan_summary;
+
+#define GLINT_PLAN_SUMMARY_INIT                                                                                        \
+    {                                                                                                                  \
+        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.02F,                           \
+        {                                                                                                              \
+            0, 0, 0                                                                                                    \
+        }                                                                                                              \
+    }
+
+typedef enum glint_effect {
+    GLINT_EFFECT_SURFACES = 0, /* rays of the camera, and what they hit */
+    GLINT_EFFECT_FACETS,       /* single facets of a material under a light */
+    GLINT_EFFECT_LOOKUPS,
+    GLINT_EFFECT_COLORS,
+    GLINT_EFFECT_LAYERS,
+    GLINT_EFFECT_ANISOTROPY,
+    GLINT_EFFECT_TEXTURES,
+    GLINT_EFFECT_NORMAL_MAPS,
+    GLINT_EFFECT_ALPHA,
+    GLINT_EFFECT_LIGHT, /* how the smooth reflection of a light is found */
+    GLINT_EFFECT_SHADOWS,
+    GLINT_EFFECT_BOUNCES,
+    GLINT_EFFECT_SAMPLES /* the noise that the samples of a pixel leave */
+} glint_effect;
+
+/* "facets"; NULL when there is no such effect. */
+GLINT_API const char *glint_effect_name(glint_effect effect);
+
+typedef struct glint_decision {
+    glint_effect effect;
+    int32_t material, light; /* indices of the summary; -1: of the whole picture */
+    uint32_t is_on;
+    char choice[24];     /* "counted", "LTC" */
+    char reason[168];    /* with its number, without a full stop */
+    float ns_per_sample; /* by src/plan/cost_table.c; 0 where it is off */
+    float time_share;    /* [0, 1] of the whole picture */
+    float error;         /* that it adds */
+} glint_decision;
+
+typedef struct glint_plan glint_plan;
+
+/* On failure *plan is NULL, and the message names what was found and expected, as for glint_material_create. */
+GLINT_API glint_result glint_plan_create(const glint_plan_summary *summary, glint_plan **plan, char *message,
+                                         size_t message_size);
+/* NULL is allowed. */
+GLINT_API void glint_plan_destroy(glint_plan *plan);
+
+GLINT_API uint32_t glint_plan_decision_count(const glint_plan *plan);
+/* NULL behind the last. They belong to the plan. */
+GLINT_API const glint_decision *glint_plan_decision(const glint_plan *plan, uint32_t index);
+
+/* The whole of it. */
+typedef struct glint_plan_outcome {
+    float error;             /* of what is left out */
+    float noise;             /* of the samples */
+    float ns_per_sample;     /* of one core, by the table */
+    uint32_t is_met;         /* error and noise together are within the budget */
+    uint32_t bounces;        /* to be traced */
+    uint32_t enough_samples; /* per pixel, for the noise to be within what the error leaves; 0: no number is */
+} glint_plan_outcome;
+
+GLINT_API glint_plan_outcome glint_plan_result(const glint_plan *plan);
+/* Takes out of the options of a layer of a material what the plan leaves out: model, deviations, area_light_method. */
+GLINT_API void glint_plan_cut(const glint_plan *plan, uint32_t material, glint_material_options *options);
+/* 1: the light needs shadow rays. */
+GLINT_API int glint_plan_shadows(const glint_plan *plan, uint32_t light);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,6 +6,7 @@
 #include "model/counting_kernel.h"
 
 #define GLINT_LANES 1
+#include "math/fade.h"
 #include "math/hash.h"
 #include "model/area.h"
 #include "model/lobe.h"
@@ -219,27 +220,12 @@ static void eval_all(const model_query *q, size_t number, counting_width width, 
 
 /* ---- within what the options allow to leave out ---- */
 
-/* Between one and two deviations a smooth step 3 t^2 - 2 t^3 blends the count in. What it leaves out varies by
- * r (1 - 3 t^2 + 2 t^3), t = r - 1, which is 1.0811 at most, at r = 1.167: by so much the deviation is held lower. */
-#define BLEND_PEAK 1.0811F
-
 /* Facets under the footprint, as the kernel counts them. */
 static float facets_under(const model_query *q)
 {
     const glint_footprint *f = q->footprint;
     const double area = (double)f->dudx * (double)f->dvdy - (double)f->dudy * (double)f->dvdx;
     return (float)fabs(area) * q->surface->facets_per_m2;
-}
-
-/* The share of the count that shows where it varies by deviation. */
-static float shown(float deviation, float smooth_deviation)
-{
-    if (!(smooth_deviation > 0.0F))
-        return 1.0F;
-    const float t = deviation * (BLEND_PEAK / smooth_deviation) - 1.0F;
-    if (!(t > 0.0F))
-        return 0.0F;
-    return t < 1.0F ? t * t * (3.0F - 2.0F * t) : 1.0F;
 }
 
 static void count_drawn(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
@@ -265,7 +251,7 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
         const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lobe[i].p;
         /* Of less light than a float holds nothing is seen. */
         const float deviation = facets * p > 1e-30F ? 1.0F / sqrtf(facets * p) : facets > 0.0F ? 1e15F : 0.0F;
-        const float share = deviation > 0.0F ? shown(deviation, o->smooth_deviation) : 0.0F;
+        const float share = deviation > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
         if (!(share > 0.0F)) {
             combine(&lobe[i], 1.0F, 1.0F, &value[i]);
             value[i].facet_count = facets;

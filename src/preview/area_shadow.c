@@ -177,6 +177,8 @@ bool area_light_reaches(const world *w, const hit *h, const shade_point *p, cons
     *area = shape_of(&t, h->position);
     if (!shade_faces_area(p, area))
         return false;
+    if (l->unshadowed)
+        return true;
     double u[2], draw[2];
     sampler_pair(random, dimension, u);
     sampler_pair(random, dimension + PARTNER, draw);

@@ -42,16 +42,6 @@ static float to_uniform(double u)
     return fminf((float)u, BELOW_ONE);
 }
 
-/* One place on a path: the ray that leads there and what it meets. */
-typedef struct vertex {
-    trace_ray ray;
-    differential step;
-    trace_hit found;
-    hit hit;
-    hit_step hit_step;
-    shade_point point;
-} vertex;
-
 static bool arrive(const world *w, vertex *v, trace_blending blending, const sampler *random, int depth)
 {
     if (!trace_closest(w->trace, &v->ray, blending, &v->found))
@@ -227,15 +217,32 @@ static void tile_footprints(const world *w, const double jitter[2], shade_point 
     }
 }
 
+/* A ray through a point of the pixel. */
+static void leave_camera(const world *w, int x, int y, const sampler *pixel, double jitter[2], vertex *v)
+{
+    sampler_pair(pixel, dimension(0, DIM_PIXEL), jitter);
+    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v->ray, &v->step);
+    v->step = differential_scale(&v->step, 1.0 / w->footprint_side);
+}
+
+bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
+{
+    double jitter[2];
+    const sampler pixel = sampler_make(x, y, index, w->seed);
+    leave_camera(w, x, y, &pixel, jitter, v);
+    if (!arrive(w, v, TRACE_BLEND_SOLID, &pixel, 0))
+        return false;
+    tile_footprints(w, jitter, &v->point);
+    return true;
+}
+
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
 {
     *out = (pixel_sample){ 0 };
     double jitter[2];
     const sampler pixel = sampler_make(x, y, index, w->seed);
-    sampler_pair(&pixel, dimension(0, DIM_PIXEL), jitter);
     vertex v;
-    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v.ray, &v.step);
-    v.step = differential_scale(&v.step, 1.0 / w->footprint_side);
+    leave_camera(w, x, y, &pixel, jitter, &v);
 
     float transmittance = 1.0F;
     for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {

@@ -42,6 +42,16 @@ typedef struct pixel_sample {
     float depth; /* metres; 0: nothing was hit */
 } pixel_sample;
 
+/* One place on a path: the ray that leads there and what it meets. */
+typedef struct vertex {
+    trace_ray ray;
+    differential step;
+    trace_hit found;
+    hit hit;
+    hit_step hit_step;
+    shade_point point;
+} vertex;
+
 /* The counters of a thread. */
 typedef struct ray_counts {
     uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
@@ -58,6 +68,9 @@ int preview_footprint_side(int spp);
  * same facets at 16 samples and at 1024. The explicit model adds up facets, and its picture is the same under any
  * tiles. docs/plan.md has what the number does to the statistics of blocks. */
 int preview_glint_side(const preview_options *o);
+
+/* What sample number index of the pixel (x, y) sees first. False: nothing. */
+bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v);
 
 /* Sample number index of the pixel (x, y), which stands for 1/spp of it. */
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts);

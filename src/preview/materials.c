@@ -70,30 +70,27 @@ typedef struct layer_plan {
     float *normals;
 } layer_plan;
 
-static void cut(const material_cut *c, glint_material_options *o)
+glint_model materials_model(const scene *s, int index, scene_glint_layer layer, int model)
 {
-    o->smooth_deviation = c->smooth_deviation;
-    o->draw_deviation = c->draw_deviation;
-    o->area_light_method = c->area_light_method;
+    const scene_glint *const g = scene_layer_glint(&s->materials[index], layer);
+    if (model != PREVIEW_MODEL_AUTO)
+        return (glint_model)model;
+    return g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
 }
 
-static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, const material_cut *cuts,
+static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, const glint_plan *plan,
                        layer_plan *out, report *r)
 {
     const scene *const s = all->scene;
     const scene_material *const m = &s->materials[index];
     const scene_glint *const g = scene_layer_glint(m, layer);
-    glint_model wanted = (glint_model)model;
-    if (model == PREVIEW_MODEL_AUTO)
-        wanted = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
-    if (cuts == NULL)
+    const glint_model wanted = materials_model(s, index, layer, model);
+    if (plan == NULL)
         warn_of_unrendered(s, index, g, wanted, r);
-    else if (cuts[layer].smooth)
-        wanted = GLINT_MODEL_SMOOTH;
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
     choose_facets(all->facets, &out->options);
-    if (cuts != NULL)
-        cut(&cuts[layer], &out->options);
+    if (plan != NULL)
+        glint_plan_cut(plan, (uint32_t)index, &out->options);
     return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
 }
 
@@ -116,14 +113,14 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const materials *all, int index, int model, const material_cut *cuts, material_layers *out,
+static bool make_layers(const materials *all, int index, int model, const glint_plan *plan, material_layers *out,
                         report *r)
 {
     const scene *const s = all->scene;
     const bool is_coated = s->materials[index].clearcoat > 0.0F;
     layer_plan base = { 0 }, coat = { 0 };
-    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, cuts, &base, r) &&
-                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, cuts, &coat, r));
+    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, plan, &base, r) &&
+                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, plan, &coat, r));
     if (done && is_coated) {
         glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
         whole.model = GLINT_MODEL_LAYERED;
@@ -140,8 +137,7 @@ static bool make_layers(const materials *all, int index, int model, const materi
     return done;
 }
 
-bool materials_make(const scene *s, int model, preview_facets facets, const material_cut (*cuts)[2], materials *out,
-                    report *r)
+bool materials_make(const scene *s, int model, preview_facets facets, const glint_plan *plan, materials *out, report *r)
 {
     *out = (materials){ .scene = s, .facets = facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
@@ -150,12 +146,12 @@ bool materials_make(const scene *s, int model, preview_facets facets, const mate
         return report_error(r, "no memory for %d materials", s->material_count);
 
     for (int i = 0; i < s->material_count; ++i) {
-        if (!make_layers(out, i, model, cuts != NULL ? cuts[i] : NULL, &out->layers[i], r)) {
+        if (!make_layers(out, i, model, plan, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }
     }
-    if (cuts == NULL) {
+    if (plan == NULL) {
         warn_of_missing_texcoords(s, SCENE_LAYER_BASE, r);
         warn_of_missing_texcoords(s, SCENE_LAYER_CLEARCOAT, r);
     }

@@ -20,18 +20,14 @@ typedef struct materials {
     material_layers *layers; /* scene->material_count */
 } materials;
 
-/* What a plan leaves of a layer. */
-typedef struct material_cut {
-    bool smooth; /* its facets are not counted */
-    float smooth_deviation, draw_deviation;
-    glint_area_light_method area_light_method;
-} material_cut;
-
 /* model: a glint_model, or PREVIEW_MODEL_AUTO: for each material the one that shows what it asks for, see
- * scene_model_of. cuts: base and coat of every material; NULL: all is as the scene asks. Without cuts it warns of what
- * a material asks for and its model does not render. */
-bool materials_make(const scene *s, int model, preview_facets facets, const material_cut (*cuts)[2], materials *out,
+ * scene_model_of. plan: what is left out; NULL: all is as the scene asks, and warnings say what a material asks for and
+ * its model does not render. */
+bool materials_make(const scene *s, int model, preview_facets facets, const glint_plan *plan, materials *out,
                     report *r);
 void materials_free(materials *m);
+
+/* The model that a layer of a material gets without a plan. */
+glint_model materials_model(const scene *s, int index, scene_glint_layer layer, int model);
 
 #endif

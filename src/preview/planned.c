@@ -1,35 +1,26 @@
-/* From an error budget to what each material may leave out.
- *
- * A pixel is the mean of glint_side^2 tiles, whose facets have nothing to do with each other, so it varies by
- * 1 / glint_side of what a tile varies by. Draws are new for every sample, and a pixel has spp of them.
+/* Looks at the view, makes its plan, and lets the world obey: materials that leave out, fewer bounces, fewer shadows.
  */
 #include "preview/planned.h"
 
-#include <stdlib.h>
+#include "preview/survey.h"
 
-static material_cut cut_of(const preview_options *o, const world *w)
+bool planned_make(planned *p, const preview_options *options, world *w, light *lights, report *r)
 {
-    const float third = (float)(o->accuracy / sqrt(3.0)); /* facets, draws and light integrals: their variances add */
-    /* A sample that stands for a patch of surroundings is not one of many of its kind. */
-    const bool alone = w->environment != NULL || w->emitters != NULL;
-    return (material_cut){ .smooth_deviation = alone ? third : third * (float)w->glint_side,
-                           .draw_deviation = alone ? 0.0F : third * sqrtf((float)w->spp),
-                           .area_light_method = GLINT_AREA_LIGHT_FAST };
-}
-
-bool planned_make(planned *p, const preview_options *options, world *w, report *r)
-{
-    const scene *const s = w->shader.scene;
-    const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
-    material_cut(*const cuts)[2] = calloc(count, sizeof *cuts);
-    if (cuts == NULL)
-        return report_error(r, "no memory for %d materials", s->material_count);
-    for (size_t i = 0; i < count; ++i)
-        cuts[i][0] = cuts[i][1] = cut_of(options, w);
-    const bool made =
-        materials_make(s, options->model, options->facets, (const material_cut(*)[2])cuts, &p->materials, r);
-    free(cuts);
+    survey seen;
+    char message[256] = "";
+    if (!survey_make(w, options, &seen, r))
+        return false;
+    const glint_result result = glint_plan_create(&seen.summary, &p->plan, message, sizeof message);
+    survey_free(&seen);
+    if (result != GLINT_OK)
+        return report_error(r, "preview: no plan: %s", message[0] != '\0' ? message : glint_result_text(result));
+    const bool made = materials_make(w->shader.scene, options->model, options->facets, p->plan, &p->materials, r);
     w->shader.materials = &p->materials;
+    w->bounces = (int)glint_plan_result(p->plan).bounces;
+    if (w->bounces == 0)
+        w->emitters = NULL;
+    for (int i = 0; i < w->light_count; ++i)
+        lights[i].unshadowed = !glint_plan_shadows(p->plan, (uint32_t)i);
     return made;
 }
 
@@ -37,4 +28,6 @@ void planned_free(planned *p)
 {
     if (p->materials.scene != NULL)
         materials_free(&p->materials);
+    glint_plan_destroy(p->plan);
+    *p = (planned){ 0 };
 }

@@ -7,6 +7,7 @@ set ytics nomirror
 set logscale y2
 set format y2 '10^{%L}'
 set key outside bottom center horizontal
+set bmargin at screen 0.24
 of(roughness, column_) = abs(column(1) - roughness) < 1e-3 ? column(column_) : NaN
 set datafile missing NaN
 roughness(k) = real(word('0.3 0.6', k))
