@@ -66,9 +66,10 @@ void area_eval(const model_query *q, area_value *value)
     area_light light;
     if (!area_see(q, &light))
         return;
-    /* The table knows round roughness only. */
-    const int is_exact =
-        q->surface->alpha_x != q->surface->alpha_y || q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
+    /* The table knows round roughness only; what rounding leaves between the two is none. */
+    const float most = fmaxf(q->surface->alpha_x, q->surface->alpha_y);
+    const int is_exact = fabsf(q->surface->alpha_x - q->surface->alpha_y) > 1e-4F * most ||
+                         q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
     area_facets facets;
     (is_exact ? area_facets_exact : area_facets_fast)(q, &light, &facets);
     find_lit(q, &facets, value);

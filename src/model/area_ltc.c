@@ -111,15 +111,11 @@ void area_facets_fast(const model_query *q, const area_light *light, area_facets
     set_sides(&moved, scale, &sectors);
     set_arcs(&moved, scale, &sectors);
     sum_for_this_machine()(&lobe, &sectors, MOST_QUADS, &s);
-    if (s.is_uneven) {
-        area_facets_exact(q, light, value);
-        return;
-    }
     if (!(s.weight > 0.0F) || !(s.reflected > 0.0F) || !(s.facets > 0.0F))
         return;
     const double unit = moved.share * REAL_PI / (fit.determinant * (double)s.weight);
-    /* The whole lobe's quotient is the scale from the table. It takes over where next to nothing is left out: to the
-     * eighth power (fit: .7 % less error of 95 % of the lights than the fourth). */
+    /* The whole lobe's quotient is the scale from the table. It takes over where next to nothing is left out. The
+     * eighth power, tried beside the fourth and none, leaves the least error to 95 % of the lights. */
     const double share2 = moved.share * moved.share, share4 = share2 * share2, known = share4 * share4;
     const double reflected =
         real_min(moved.share * known * fit.albedo + (1.0 - known) * (unit * (double)s.reflected), fit.albedo);
