@@ -10,6 +10,11 @@ if(TARGET glint_export)
   install(TARGETS glint_export LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(FILES exporters/glint_export.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
+if(TARGET glint_preview)
+  set_target_properties(glint_preview PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS glint_preview LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(FILES src/preview/glint_preview.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 
 # find_package(libglint) gives the target libglint::glint.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libglint)

@@ -19,6 +19,8 @@ int command_export_gltf(int argc, char **argv);
 int command_export_povray(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
+int command_plan(int argc, char **argv);
+int command_study(int argc, char **argv);
 int command_validate(int argc, char **argv);
 
 /* A report whose warnings go to standard error as they come and, with --json, into the document as well. It must stay

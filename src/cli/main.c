@@ -13,6 +13,7 @@ static const struct subcommand {
     int (*run)(int argc, char **argv);
 } subcommands[] = {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
+    { "plan", "say what a render would do, leave out and cost", command_plan },
     { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },
     { "example", "write a built-in normal map of the example model", command_example },
@@ -20,6 +21,7 @@ static const struct subcommand {
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "validate", "check the glint materials of glTF files and presets", command_validate },
     { "materials", "list the material presets, or show one", command_materials },
+    { "study", "measure what accuracy costs: tables, figures, a page", command_study },
 };
 
 enum { SUBCOMMAND_COUNT = sizeof subcommands / sizeof subcommands[0] };

@@ -52,7 +52,7 @@ typedef struct grid_ellipse {
  */
 static inline vfloat grid_area(vfloat dudx, vfloat dudy, vfloat dvdx, vfloat dvdy)
 {
-    return abs_f(narrow(widen(dudx) * widen(dvdy) - widen(dudy) * widen(dvdx)));
+    return abs_f(narrow(subtract_d(multiply_d(widen(dudx), widen(dvdy)), multiply_d(widen(dudy), widen(dvdx)))));
 }
 
 /* The pixel, convolved with a round facet of this area: J J^T + facet_area I. A pixel that is smaller than a facet,
@@ -165,15 +165,14 @@ static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID
     share[3] = c_up;
 }
 
-/* Largest integer <= x as a double, and its low 32 bits. Adding 1.5 * 2^52 leaves the nearest integer in the low bits;
- * the argument must stay below 2^51 in size. */
-static inline vdouble grid_floor(vdouble x, vuint *low)
+/* What of x is above the largest integer below it, in [0, 1], and the low 32 bits of that integer; an integer is itself
+ * with 0 or the one below with 1. Adding 1.5 * 2^52 leaves the nearest integer to x - 1/2 in the low bits; beyond 2^51
+ * in size what comes out is no floor, but a number. */
+static inline vfloat grid_fraction(vdouble x, vuint *integer)
 {
-    const vdouble shifted = x + 6755399441055744.0;
-    const vdouble nearest = shifted - 6755399441055744.0;
-    const vmask above = less_d(x, nearest);
-    *low = low_word(bits_of_d(shifted)) + (vuint)above;
-    return nearest + widen(to_float(above));
+    const vdouble shift = splat_d(6755399441055744.0), shifted = add_d(subtract_d(x, splat_d(0.5)), shift);
+    *integer = low_word(shifted);
+    return min_f(max_f(narrow(subtract_d(x, subtract_d(shifted, shift))), splat(0.0F)), splat(1.0F));
 }
 
 /* The triangle of one grid's lattice around (u, v): three cells and barycentric weights. */
@@ -195,11 +194,14 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     /* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the
      * same four numbers, so their rounding does not matter; the position itself is kept in double. */
     const vfloat skew = across * 0.577350269F, tall = across * 1.15470054F;
-    const vdouble sx =
-        u * widen(cosine * along + sine * skew) + v * widen(sine * along - cosine * skew) + widen(start_x);
-    const vdouble sy = v * widen(cosine * tall) - u * widen(sine * tall) + widen(start_y);
+    const vdouble sx = add_d(
+        add_d(multiply_d(u, widen(cosine * along + sine * skew)), multiply_d(v, widen(sine * along - cosine * skew))),
+        widen(start_x));
+    const vdouble sy =
+        add_d(subtract_d(multiply_d(v, widen(cosine * tall)), multiply_d(u, widen(sine * tall))), widen(start_y));
     vuint x, y;
-    const vfloat fx = narrow(sx - grid_floor(sx, &x)), fy = narrow(sy - grid_floor(sy, &y));
+    /* Where cells have no numbers any more the weights of the blend still add up to one. */
+    const vfloat fx = grid_fraction(sx, &x), fy = grid_fraction(sy, &y);
     const vfloat sum = fx + fy;
     const vmask upper = less_equal(splat(1.0F), sum);
     weight[0] = abs_f(1.0F - sum);
@@ -207,21 +209,19 @@ static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint 
     weight[2] = choose(upper, 1.0F - fx, fy);
 
     const vuint origin = x * HASH_Z + y * HASH_Y + grid;
-    cell[0] = hash_full(origin + ((vuint)upper & (HASH_Z + HASH_Y)));
+    cell[0] = hash_full(origin + ((vuint)mask_bits(upper) & (HASH_Z + HASH_Y)));
     cell[1] = hash_full(origin + HASH_Z);
     cell[2] = hash_full(origin + HASH_Y);
 }
 
-/* (u, v) in metres, |u| and |v| < 2^50 cells. */
-static inline grid_point grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed)
+/* (u, v) in metres; beyond 2^51 cells from the origin single cells cannot be told apart. */
+static inline void grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed, grid_point *p)
 {
     const grid_shape shape = grid_shape_of(ellipse);
     grid_vertex vertex[GRID_COUNT];
-    grid_point p;
-    grid_tetrahedron(&shape, vertex, p.share);
+    grid_tetrahedron(&shape, vertex, p->share);
     for (int i = 0; i < GRID_COUNT; i++)
-        grid_cells(&vertex[i], u, v, seed, p.cell + GRID_CELLS * i, p.weight + GRID_CELLS * i);
-    return p;
+        grid_cells(&vertex[i], u, v, seed, p->cell + GRID_CELLS * i, p->weight + GRID_CELLS * i);
 }
 
 #endif

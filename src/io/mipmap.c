@@ -53,6 +53,14 @@ void mipmap_free(mipmap *m)
     *m = (mipmap){ 0 };
 }
 
+bool mipmap_copy(const scene_image *picture, mipmap *out, report *r)
+{
+    if (!mipmap_allocate(out, picture->width, picture->height, 4, picture->name, r))
+        return false;
+    memcpy(out->levels[0].texels, picture->texels, level_size(out, &out->levels[0]) * sizeof *picture->texels);
+    return true;
+}
+
 /* A float's exponent is biased by 127 and a half's by 15: bits moved into place are the value divided by 2^112, and the
  * multiplication is exact, for halves without a leading one as well. */
 static float half_value(uint16_t code)

@@ -35,9 +35,12 @@ typedef struct mipmap {
 /* Room for all levels; sizes beyond the limits are errors that name the image. The coding is MIPMAP_UNORM16. */
 bool mipmap_allocate(mipmap *out, int width, int height, int channel_count, const char *name, report *r);
 void mipmap_free(mipmap *m);
-/* Allocates and fills level 0 with a picture as its file stores it (PNG, JPEG or WebP); in image_oiio.cpp. On failure
- * *out may hold memory, too. */
+/* Allocates and fills level 0 with a picture as its file (PNG, JPEG or WebP) or the scene stores it; in image_oiio.cpp.
+ * On failure *out may hold memory, too. */
 bool mipmap_decode(const scene_image *picture, mipmap *out, report *r);
+
+/* The same for a picture that the scene holds as texels. */
+bool mipmap_copy(const scene_image *picture, mipmap *out, report *r);
 
 /* Level 0 has grey and alpha in the first two of four channels: makes them RGBA. */
 void mipmap_spread_grey(mipmap *m);

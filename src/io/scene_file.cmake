@@ -31,6 +31,7 @@ glint_folder(io_scene
     near_names.cpp
     preset.cpp
     scene_bounds.c
+    scene_build.cpp
     scene_describe.cpp
     scene_file.cpp
     tangent_space.c

@@ -16,7 +16,7 @@ static inline vfloat log_f(vfloat x)
     vfloat m = mantissa_of(x);
     const vmask big = less(splat(1.41421356F), m);
     m = choose(big, m * 0.5F, m);
-    const vfloat ef = to_float(e - big);
+    const vfloat ef = to_float(e - mask_bits(big));
     const vfloat f = m - 1.0F;
     const vfloat z = f * f;
     vfloat p = 7.0376836292e-2F * f - 1.1514610310e-1F;

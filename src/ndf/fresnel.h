@@ -15,10 +15,12 @@ static inline float fresnel_schlick(float cosine, float f0, float f90)
 /* Exact, unpolarised; ior is that of the inside over the outside, > 1. */
 static inline float fresnel_dielectric(float cosine, float ior)
 {
-    const float sine2 = (1.0F - cosine) * (1.0F + cosine);
-    const float inner = sqrtf(1.0F - sine2 / (ior * ior));
-    const float s = (cosine - ior * inner) / (cosine + ior * inner);
-    const float p = (ior * cosine - inner) / (ior * cosine + inner);
+    /* g = ior cos of the refracted angle; g^2 - cos^2 = ior^2 - 1. Written with this, neither cos - g nor ior^2 cos - g
+     * is a difference of nearly equal numbers when ior is close to one. */
+    const float excess = (ior - 1.0F) * (ior + 1.0F);
+    const float sum = cosine + sqrtf(excess + cosine * cosine);
+    const float s = excess / (sum * sum);
+    const float p = excess * (cosine - 1.0F / sum) / (excess * cosine + sum);
     return 0.5F * (s * s + p * p);
 }
 

@@ -47,8 +47,11 @@ vec3 ggx_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u
     float sine, cosine;
     sincos_pi(turn < 1.0F ? turn : turn - 1.0F, &sine, &cosine);
     const float sign = turn < 1.0F ? 1.0F : -1.0F;
-    const float z = (1.0F - u2) * (1.0F + v.z) - v.z;
-    const float r = sqrtf(fmaxf(0.0F, (1.0F - z) * (1.0F + z)));
-    const vec3 h = { sign * r * cosine + v.x, sign * r * sine + v.y, z + v.z };
+    /* The cap's point has height z = up - v.z. Written with this, 1 - z and 1 + z keep their digits at the pole and in
+     * the tail, and so does z + v.z. */
+    const float up = (1.0F - u2) * (1.0F + v.z);
+    const float versine = (v.x * v.x + v.y * v.y) / (1.0F + v.z);
+    const float r = sqrtf(u2 * (1.0F + v.z) * (up + versine));
+    const vec3 h = { sign * r * cosine + v.x, sign * r * sine + v.y, up };
     return vec3_normalize((vec3){ alpha_x * h.x, alpha_y * h.y, fmaxf(h.z, 1e-12F) });
 }

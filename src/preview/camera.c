@@ -11,6 +11,21 @@ static void fit(camera *c, double camera_aspect)
         c->half_height = c->half_width / picture_aspect;
 }
 
+static bool has_window(const scene_camera *from)
+{
+    return from->window[0] < from->window[1];
+}
+
+static void set_window(camera *c, const float window[4])
+{
+    const double left = (double)window[0], right = (double)window[1];
+    const double bottom = (double)window[2], top = (double)window[3];
+    c->half_width = 0.5 * (right - left);
+    c->half_height = 0.5 * (top - bottom);
+    c->middle_x = 0.5 * (right + left);
+    c->middle_y = 0.5 * (top + bottom);
+}
+
 bool camera_make(const scene_camera *from, int width, int height, camera *out, report *r)
 {
     double m[16];
@@ -32,6 +47,11 @@ bool camera_make(const scene_camera *from, int width, int height, camera *out, r
     out->height = height;
     out->near = (double)from->znear;
     out->far = from->zfar > 0.0F ? (double)from->zfar : (double)INFINITY;
+    out->middle_x = out->middle_y = 0.0;
+    if (has_window(from)) {
+        set_window(out, from->window);
+        return true;
+    }
     out->half_height = perspective ? tan(0.5 * (double)from->yfov_rad) : fabs((double)from->ymag);
     if (perspective && !(from->aspect > 0.0F)) {
         out->half_width = out->half_height * (double)width / (double)height;
@@ -51,8 +71,8 @@ static vec3 unit_step(vec3 direction, vec3 step, double length)
 void camera_ray(const camera *c, double x, double y, trace_ray *ray, differential *d)
 {
     const vec3 zero = v3(0.0, 0.0, 0.0);
-    const double across = (2.0 * x / (double)c->width - 1.0) * c->half_width;
-    const double upwards = (1.0 - 2.0 * y / (double)c->height) * c->half_height;
+    const double across = (2.0 * x / (double)c->width - 1.0) * c->half_width + c->middle_x;
+    const double upwards = (1.0 - 2.0 * y / (double)c->height) * c->half_height + c->middle_y;
     const vec3 offset = v3_mad(v3_scale(c->right, across), c->up, upwards);
     const vec3 step_x = v3_scale(c->right, 2.0 * c->half_width / (double)c->width);
     const vec3 step_y = v3_scale(c->up, -2.0 * c->half_height / (double)c->height);

@@ -11,6 +11,7 @@ typedef struct camera {
     scene_projection projection;
     vec3 origin, right, up, forward; /* unit, world */
     double half_width, half_height;  /* perspective: at 1 m in front; orthographic: metres */
+    double middle_x, middle_y;       /* likewise, of the picture's middle: 0 but for a shifted lens */
     double near, far;                /* metres along forward; far may be infinite */
     int width, height;               /* pixels */
 } camera;

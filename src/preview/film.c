@@ -2,6 +2,8 @@
 #include "preview/film.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const char *const CHANNELS[] = {
     "R",        "G",        "B",        "A",        "smooth.R", "smooth.G", "smooth.B", "glints.N",
@@ -10,9 +12,11 @@ static const char *const CHANNELS[] = {
 #define PICTURE_CHANNELS 4
 #define ALL_CHANNELS 16
 
-bool film_make(image *out, int width, int height, bool aov, report *r)
+bool film_of_options(const preview_options *o, image *out, report *r)
 {
-    if (!image_allocate(out, width, height, aov ? ALL_CHANNELS : PICTURE_CHANNELS, r))
+    const bool whole = o->tile_width == 0;
+    if (!image_allocate(out, whole ? o->width : o->tile_width, whole ? o->height : o->tile_height,
+                        o->aov ? ALL_CHANNELS : PICTURE_CHANNELS, r))
         return false;
     for (int c = 0; c < out->channel_count; ++c)
         snprintf(out->channel_names[c], sizeof out->channel_names[c], "%s", CHANNELS[c]);
@@ -60,4 +64,45 @@ void film_write(image *film, int x, int y, const film_pixel *pixel)
     to = put(to, pixel->normal, 3, n);
     to = put(to, pixel->albedo, 3, n);
     put(to, &pixel->depth, 1, pixel->hits);
+}
+
+bool film_sums_make(film_sums *out, const image *film, report *r)
+{
+    const size_t pixels = (size_t)film->width * (size_t)film->height;
+    *out = (film_sums){ .width = film->width, .channel_count = film->channel_count };
+    out->sums = calloc(pixels * (size_t)film->channel_count, sizeof *out->sums);
+    out->counts = calloc(2 * pixels, sizeof *out->counts);
+    if (out->sums != NULL && out->counts != NULL)
+        return true;
+    film_sums_free(out);
+    return report_error(r, "no memory for the sums of %d x %d pixels", film->width, film->height);
+}
+
+void film_sums_free(film_sums *s)
+{
+    free(s->sums);
+    free(s->counts);
+    *s = (film_sums){ 0 };
+}
+
+static size_t place_of(const film_sums *s, int x, int y)
+{
+    return (size_t)y * (size_t)s->width + (size_t)x;
+}
+
+/* The sums come first in a film_pixel, in the order of the channels. */
+void film_sums_load(const film_sums *s, int x, int y, film_pixel *pixel)
+{
+    const size_t at = place_of(s, x, y);
+    memcpy(pixel, &s->sums[at * (size_t)s->channel_count], (size_t)s->channel_count * sizeof *s->sums);
+    pixel->samples = s->counts[2 * at];
+    pixel->hits = s->counts[2 * at + 1];
+}
+
+void film_sums_store(const film_sums *s, int x, int y, const film_pixel *pixel)
+{
+    const size_t at = place_of(s, x, y);
+    memcpy(&s->sums[at * (size_t)s->channel_count], pixel, (size_t)s->channel_count * sizeof *s->sums);
+    s->counts[2 * at] = pixel->samples;
+    s->counts[2 * at + 1] = pixel->hits;
 }

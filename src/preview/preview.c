@@ -5,28 +5,13 @@
 #include <string.h>
 #include <time.h>
 
-#include "preview/integrator.h"
 #include "preview/rig.h"
+#include "preview/stage.h"
 #include "preview/tiles.h"
 
 #define LARGEST_SIDE 65536
 #define MOST_SAMPLES 65536
 #define MOST_BOUNCES 64
-
-/* Everything that a render owns. */
-typedef struct stage {
-    const scene *scene;
-    geometry geometry;
-    trace_scene *trace;
-    materials materials;
-    textures *textures;
-    camera camera;
-    light *lights;
-    environment_map own_map; /* of the scene's image-based light */
-    environment environment;
-    emitters emitters;
-    world world;
-} stage;
 
 static double now_s(void)
 {
@@ -42,7 +27,7 @@ static bool check_range(const char *name, int value, int low, int high, report *
     return report_error(r, "preview: %s is %d; expected %d to %d", name, value, low, high);
 }
 
-static bool check_options(const preview_options *o, report *r)
+bool stage_check_options(const preview_options *o, report *r)
 {
     const int last_model = GLINT_MODEL_LAYERED - 1; /* which is made of the others */
     if (o->size != sizeof *o)
@@ -53,6 +38,8 @@ static bool check_options(const preview_options *o, report *r)
         !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r) ||
         !check_range("facets", (int)o->facets, PREVIEW_FACETS_OWN, PREVIEW_FACETS_POVRAY, r))
         return false;
+    if (!(o->accuracy >= 0.0 && o->accuracy <= 1.0))
+        return report_error(r, "preview: accuracy is %g; expected 0 to 1", o->accuracy);
     if (o->threads < 0)
         return report_error(r, "preview: threads is %d; expected 0 (one a core) or more", o->threads);
     if (o->tile_width == 0)
@@ -67,7 +54,7 @@ static bool check_options(const preview_options *o, report *r)
 static float opacity_at(const void *user, const trace_hit *at)
 {
     const stage *const st = user;
-    return shade_opacity(&st->world.shader, &st->geometry, at);
+    return shade_opacity(&st->shader, &st->geometry, at);
 }
 
 static bool set_environment(stage *st, const preview_options *o, report *r)
@@ -84,92 +71,104 @@ static bool set_environment(stage *st, const preview_options *o, report *r)
     } else {
         return true;
     }
-    st->world.environment = &st->environment;
+    st->has_environment = true;
     return environment_make(&from, &st->environment, r);
 }
 
 /* A scene that brings no light, and gets neither sky nor environment, stands in the studio. */
 static bool wants_rig(const stage *st, const preview_options *o)
 {
-    return st->scene->light_count == 0 && o->sky == NULL && st->world.environment == NULL;
+    return st->scene->light_count == 0 && o->sky == NULL && !st->has_environment;
 }
 
-static bool set_lights(stage *st, const preview_options *o, const scene_camera *view, report *r)
+static bool set_lights(view *v, const stage *st, const preview_options *o, const scene_camera *from_where, report *r)
 {
     scene_light rig[RIG_LIGHT_COUNT];
     const bool studio = wants_rig(st, o);
     const int count = studio ? RIG_LIGHT_COUNT : st->scene->light_count;
     const scene_light *const from = studio ? rig : st->scene->lights;
     if (studio)
-        rig_lights(view, rig);
-    st->lights = calloc((size_t)count + ENVIRONMENT_MOST_SUNS, sizeof *st->lights);
-    if (st->lights == NULL)
+        rig_lights(from_where, rig);
+    v->lights = calloc((size_t)count + ENVIRONMENT_MOST_SUNS, sizeof *v->lights);
+    if (v->lights == NULL)
         return report_error(r, "no memory for %d lights", count);
-    st->world.lights = st->lights;
+    v->world.lights = v->lights;
     for (int i = 0; i < count; ++i)
-        st->lights[st->world.light_count++] = light_make(&from[i]);
+        v->lights[v->world.light_count++] = light_make(&from[i]);
     for (int i = 0; i < st->environment.sun_count; ++i)
-        st->lights[st->world.light_count++] = light_make(&st->environment.suns[i]);
+        v->lights[v->world.light_count++] = light_make(&st->environment.suns[i]);
     return true;
 }
 
-static void set_sky(stage *st, const preview_options *o)
+static void set_sky(world *w, const stage *st, const preview_options *o)
 {
-    world *const w = &st->world;
     w->has_sky = o->sky != NULL || wants_rig(st, o) || w->environment != NULL;
     w->sky_seen = w->has_sky && !o->transparent;
     if (w->has_sky)
         w->sky = o->sky != NULL ? *o->sky : rig_sky();
 }
 
-static bool set_up(stage *st, const preview_options *o, preview_statistics *statistics, report *r)
+bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r)
 {
-    const scene *const s = st->scene;
+    *st = (stage){ .scene = s };
     const double start = now_s();
     if (!textures_open(s, &st->textures, r))
         return false;
     const double loaded = now_s();
-    scene_camera view;
-    if (o->camera != NULL)
-        view = *o->camera;
-    else
-        view = s->camera_count > 0 ? s->cameras[0] : preview_framed_camera(s, o->width, o->height);
-
-    st->world = (world){ .geometry = &st->geometry,
-                         .camera = &st->camera,
-                         .shader = { s, &st->materials, st->textures },
-                         .bounces = o->bounces,
-                         .spp = o->spp,
-                         .footprint_side = preview_footprint_side(o->spp),
-                         .seed = o->seed };
-    if (!set_environment(st, o, r))
+    st->shader = (shader){ s, &st->materials, st->textures, NULL };
+    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
+        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+        !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;
-    set_sky(st, o);
-    if (!camera_make(&view, o->width, o->height, &st->camera, r) || !set_lights(st, o, &view, r) ||
-        !materials_make(s, o->model, o->facets, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
-        !trace_build(&st->geometry, opacity_at, st, &st->trace, r))
-        return false;
-    st->world.trace = st->trace;
-    if (!emitters_make(&st->geometry, &st->emitters, r))
-        return false;
-    if (st->emitters.count > 0 && o->bounces > 0)
-        st->world.emitters = &st->emitters;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
     return true;
 }
 
-static void take_down(stage *st)
+void stage_take_down(stage *st)
 {
     trace_free(st->trace);
     geometry_free(&st->geometry);
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
+    shader_close(&st->shader);
     textures_close(st->textures);
     emitters_free(&st->emitters);
     environment_free(&st->environment);
     environment_map_free(&st->own_map);
-    free(st->lights);
+}
+
+static scene_camera chosen_camera(const scene *s, const preview_options *o)
+{
+    if (o->camera != NULL)
+        return *o->camera;
+    return s->camera_count > 0 ? s->cameras[0] : preview_framed_camera(s, o->width, o->height);
+}
+
+bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
+{
+    const scene_camera from_where = chosen_camera(st->scene, o);
+    *v = (view){ .world = { .geometry = &st->geometry,
+                            .trace = st->trace,
+                            .camera = &v->camera,
+                            .shader = st->shader,
+                            .environment = st->has_environment ? &st->environment : NULL,
+                            .bounces = o->bounces,
+                            .spp = o->spp,
+                            .footprint_side = preview_footprint_side(o->spp),
+                            .glint_side = preview_glint_side(o),
+                            .seed = o->seed } };
+    if (st->emitters.count > 0 && o->bounces > 0)
+        v->world.emitters = &st->emitters;
+    set_sky(&v->world, st, o);
+    return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, v->lights, r));
+}
+
+void view_take_down(view *v)
+{
+    free(v->lights);
+    planned_free(&v->planned);
 }
 
 static unsigned default_facet_limit(void)
@@ -178,47 +177,79 @@ static unsigned default_facet_limit(void)
     return o.facet_limit;
 }
 
-static bool render(const stage *st, const preview_options *o, image *out, preview_statistics *statistics, report *r)
+void stage_count(const ray_counts *counts, preview_statistics *statistics)
 {
-    const bool whole = o->tile_width == 0;
-    if (!film_make(out, whole ? o->width : o->tile_width, whole ? o->height : o->tile_height, o->aov, r))
-        return false;
-    const tiles_job job = {
-        .world = &st->world, .options = o, .left = whole ? 0 : o->tile_x, .top = whole ? 0 : o->tile_y, .film = out
-    };
-    ray_counts counts = { 0 };
-    const double start = now_s();
-    const bool finished = tiles_render(&job, &counts);
-    statistics->render_s = now_s() - start;
-    statistics->camera_rays = counts.camera_rays;
-    statistics->shadow_rays = counts.shadow_rays;
-    statistics->bounce_rays = counts.bounce_rays;
-    statistics->glint_evals = counts.glint_evals;
-    statistics->smooth_evals = counts.smooth_evals;
-    if (finished && counts.over_limit == 0)
+    statistics->camera_rays = counts->camera_rays;
+    statistics->shadow_rays = counts->shadow_rays;
+    statistics->bounce_rays = counts->bounce_rays;
+    statistics->glint_evals = counts->glint_evals;
+    statistics->smooth_evals = counts->smooth_evals;
+}
+
+bool stage_check_counts(const stage *st, const ray_counts *counts, report *r)
+{
+    if (counts->over_limit == 0)
         return true;
-    image_free(out);
-    if (!finished)
-        return false;
     return report_error(
         r,
         "%s: the explicit model visits every facet under a sample, and %llu samples see too many, up to "
         "%.3g; expected at most %u: use more samples a pixel, a closer view or the counting model",
-        st->scene->path != NULL ? st->scene->path : "scene", (unsigned long long)counts.over_limit,
-        (double)counts.most_facets, default_facet_limit());
+        st->scene->path != NULL ? st->scene->path : "scene", (unsigned long long)counts->over_limit,
+        (double)counts->most_facets, default_facet_limit());
+}
+
+static bool render(const stage *st, const world *w, const preview_options *o, image *out,
+                   preview_statistics *statistics, report *r)
+{
+    if (!film_of_options(o, out, r))
+        return false;
+    const tiles_job job = { .world = w, .options = o, .samples = o->spp, .film = out };
+    ray_counts counts = { 0 };
+    const double start = now_s();
+    const bool finished = tiles_render(&job, &counts);
+    statistics->render_s = now_s() - start;
+    stage_count(&counts, statistics);
+    if (finished && stage_check_counts(st, &counts, r))
+        return true;
+    image_free(out);
+    return false;
 }
 
 bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,
                     report *r)
 {
     preview_statistics own = { 0 };
-    stage st = { .scene = s };
+    stage st = { 0 };
+    view v = { 0 };
     *out = (image){ 0 };
-    bool ok = check_options(options, r);
-    ok = ok && set_up(&st, options, &own, r);
-    ok = ok && render(&st, options, out, &own, r);
-    take_down(&st);
+    bool ok = stage_check_options(options, r);
+    ok = ok && stage_set_up(&st, s, options, &own, r) && view_set_up(&v, &st, options, r);
+    if (ok && options->planned != NULL)
+        options->planned(v.planned.plan, options->user);
+    ok = ok && render(&st, &v.world, options, out, &own, r);
+    view_take_down(&v);
+    stage_take_down(&st);
     if (statistics != NULL)
         *statistics = own;
+    return ok;
+}
+
+bool preview_plan(const scene *s, const preview_options *options, glint_plan **plan, report *r)
+{
+    preview_statistics unused = { 0 };
+    stage st = { 0 };
+    view v = { 0 };
+    *plan = NULL;
+    bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+              view_set_up(&v, &st, options, r);
+    /* A view that leaves nothing out has not been looked at. */
+    if (ok && v.planned.plan == NULL)
+        ok = planned_make(&v.planned, options, &v.world, v.lights, r);
+    if (ok) {
+        *plan = v.planned.plan;
+        v.planned.plan = NULL;
+    }
+    view_take_down(&v);
+    stage_take_down(&st);
     return ok;
 }

@@ -47,12 +47,17 @@ typedef struct preview_options {
     const preview_sky *sky;    /* NULL: that of the lookdev rig where the scene has no lights, else black */
     bool transparent;          /* camera rays do not see the sky: alpha 0 there */
     const preview_environment *environment; /* in place of any sky; NULL: that of the scene, if it has one */
+    double accuracy; /* [0, 1], the error that a picture may have for speed: relative, root mean square over pixels,
+                        against accuracy 0, which leaves nothing out. docs/plan.md */
+    /* From the calling thread, before the first ray of the picture; plan is NULL for accuracy 0. It dies with the
+     * render. */
+    void (*planned)(const glint_plan *plan, void *user);
 } preview_options;
 
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
         sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, PREVIEW_FACETS_OWN, 0, false, \
-            0, 0, 0, 0, false, 0                                                                                       \
+            0, 0, 0, 0, false, 0, 0.0, 0                                                                               \
     }
 
 typedef struct preview_statistics {
@@ -78,7 +83,40 @@ typedef struct preview_statistics {
 bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,
                     report *r);
 
-/* What the two lines above add. */
+/* What a render with these options would leave out, and what it would cost; of accuracy 0: what all of it costs. The
+ * caller destroys it. On failure *plan is NULL. */
+bool preview_plan(const scene *s, const preview_options *options, glint_plan **plan, report *r);
+
+/* ---- many pictures of one scene, and pictures that grow ---- */
+
+/* A scene made ready for rays: of the options count model, facets, environment and sky. */
+typedef struct preview_stage preview_stage;
+
+/* The scene and the environment's map must outlive the stage. On failure *out is NULL. */
+bool preview_stage_open(const scene *s, const preview_options *options, preview_stage **out, report *r);
+/* NULL is allowed. Its pictures must be closed before. */
+void preview_stage_close(preview_stage *stage);
+
+/* One picture under way. Any number may be open on a stage, each in a thread of its own. */
+typedef struct preview_picture preview_picture;
+
+/* Of the options counts all but model, facets and environment, which are the stage's; sky and camera are copied, and
+ * cancel must outlive the picture. spp is the number of samples in the end: it decides how large the footprint of each
+ * is. On failure *out is NULL. */
+bool preview_picture_open(const preview_stage *stage, const preview_options *options, preview_picture **out, report *r);
+/* Adds samples to every pixel until it has as many as are asked for, [1, spp]. The picture then is, bit for bit, that
+ * of any other way to the same number; with spp samples it is that of preview_render.
+ *
+ * False without an error: cancelled. Pixels then have different numbers of samples, each is the mean of its own, and a
+ * further call goes on. False with an error: what preview_render says of too many facets; the pixels are good. */
+bool preview_picture_refine(preview_picture *p, int samples, preview_statistics *statistics, report *r);
+/* Its pixels so far; the picture's own. */
+const image *preview_picture_image(const preview_picture *p);
+/* NULL is allowed. */
+void preview_picture_close(preview_picture *p);
+
+/* ---- what a scene without a camera or without light gets ---- */
+
 scene_camera preview_framed_camera(const scene *s, int width, int height);
 /* Appends a key light, a fill and a rim, placed around the view of the first camera, to s->lights. */
 bool preview_add_lookdev_rig(scene *s, report *r);

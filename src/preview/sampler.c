@@ -29,13 +29,17 @@ static uint32_t owen_scramble(uint32_t x, uint32_t seed)
     return reverse_bits(permute_upwards(reverse_bits(x), seed));
 }
 
-/* The second Sobol dimension: the k-th direction number is Pascal's triangle modulo 2, v(k+1) = v(k) xor v(k) >> 1. */
+/* The second Sobol dimension: direction numbers are Pascal's triangle modulo 2, v(k+1) = v(k) xor v(k) >> 1. The
+ * binomial (k, j) is odd where the bits of j are among those of k, so bit j of the result, from the top, is the parity
+ * of the index's bits at all such k: five butterflies. */
 static uint32_t sobol_second(uint32_t index)
 {
-    uint32_t result = 0;
-    for (uint32_t direction = 0x80000000U; index != 0; index >>= 1, direction ^= direction >> 1)
-        result ^= (index & 1U) != 0 ? direction : 0U;
-    return result;
+    index ^= (index >> 16) & 0x0000ffffU;
+    index ^= (index >> 8) & 0x00ff00ffU;
+    index ^= (index >> 4) & 0x0f0f0f0fU;
+    index ^= (index >> 2) & 0x33333333U;
+    index ^= (index >> 1) & 0x55555555U;
+    return reverse_bits(index);
 }
 
 sampler sampler_make(int x, int y, uint32_t sample, uint32_t seed)

@@ -38,13 +38,20 @@ static bool cancelled(const tiles_job *job)
 
 static void render_pixel(const tiles_job *job, int x, int y, ray_counts *counts)
 {
+    const bool whole = job->options->tile_width == 0;
+    const int left = whole ? 0 : job->options->tile_x;
+    const int top = whole ? 0 : job->options->tile_y;
     film_pixel pixel = { 0 };
-    for (int s = 0; s < job->world->spp; ++s) {
+    if (job->sums != NULL)
+        film_sums_load(job->sums, x, y, &pixel);
+    while (pixel.samples < (uint32_t)job->samples) {
         pixel_sample sample;
-        integrate(job->world, job->left + x, job->top + y, (uint32_t)s, &sample, counts);
+        integrate(job->world, left + x, top + y, pixel.samples, &sample, counts);
         film_add(&pixel, &sample);
     }
     film_write(job->film, x, y, &pixel);
+    if (job->sums != NULL)
+        film_sums_store(job->sums, x, y, &pixel);
 }
 
 static void render_tile(const queue *q, int index, ray_counts *counts)

@@ -6,12 +6,14 @@
 
 typedef struct tiles_job {
     const world *world;
-    const preview_options *options; /* progress, cancel, threads */
-    int left, top;                  /* of the film in the picture, pixels */
+    const preview_options *options; /* progress, cancel, threads, and which part of the picture the film is */
+    int samples;                    /* that each pixel shall have in the end; at most world->spp */
     image *film;
+    const film_sums *sums; /* what pixels have so far, and where it is kept; NULL: they start from nothing */
 } tiles_job;
 
-/* Renders the whole film. False: cancelled, then the film is unfinished. */
+/* Renders the whole film. False: cancelled, then the film is unfinished: its pixels have different numbers of samples.
+ */
 bool tiles_render(const tiles_job *job, ray_counts *counts);
 
 #endif

@@ -9,6 +9,7 @@ static void free_images(scene *s)
         free(s->images[i].name);
         free(s->images[i].path);
         free(s->images[i].bytes);
+        free(s->images[i].texels);
     }
     free(s->images);
 }

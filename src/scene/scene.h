@@ -18,12 +18,15 @@ extern "C" {
 
 #define SCENE_NONE (-1)
 
-/* An image is a file on disk or bytes held by the scene, never both. Pixels are decoded by src/io/image.h. */
+/* An image is a file on disk, the bytes of one held by the scene, or texels, never two of them. Files are decoded by
+ * src/io/image.h. */
 typedef struct scene_image {
     char *name; /* for messages: the path, or the JSON pointer of an embedded image */
     char *path; /* NULL when the bytes are here */
     uint8_t *bytes;
     size_t byte_count;
+    uint16_t *texels;  /* RGBA, straight alpha, row 0 on top: what a 16-bit file of it would hold. NULL: a file */
+    int width, height; /* of the texels */
 } scene_image;
 
 typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR } scene_wrap;
@@ -126,6 +129,9 @@ typedef struct scene_camera {
     float aspect;      /* width over height; 0: that of the picture */
     float xmag, ymag;  /* orthographic: half width and half height in metres */
     float znear, zfar; /* zfar 0: none */
+    /* The part of the plane that fills the picture: left, right, bottom, top; perspective: at 1 m in front,
+     * orthographic: in metres. In place of yfov, aspect, xmag and ymag where left < right: it can be shifted. */
+    float window[4];
     float to_world[16];
 } scene_camera;
 

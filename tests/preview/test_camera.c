@@ -197,9 +197,34 @@ static void a_scene_without_extent_still_gets_a_camera(void **state)
     }
 }
 
+/* A window says by itself what a symmetric camera says by its angle, and it can be shifted. */
+static void a_window_is_the_part_of_the_plane_that_fills_the_picture(void **state)
+{
+    (void)state;
+    const scene_projection kinds[2] = { SCENE_PERSPECTIVE, SCENE_ORTHOGRAPHIC };
+    for (int k = 0; k < 2; ++k) {
+        scene_camera from = scenes_camera(kinds[k], EYE, TARGET, 0.7F);
+        const float window[4] = { -0.25F, 0.75F, -0.125F, 0.5F };
+        memcpy(from.window, window, sizeof window);
+        const camera c = make(&from, 64, 40);
+        const double corners[2][2] = { { 0.0, 0.0 }, { 64.0, 40.0 } };
+        const double expected[2][2] = { { -0.25, 0.5 }, { 0.75, -0.125 } };
+        for (int i = 0; i < 2; ++i) {
+            trace_ray ray;
+            differential d;
+            camera_ray(&c, corners[i][0], corners[i][1], &ray, &d);
+            const double ahead = v3_dot(ray.direction, c.forward);
+            const vec3 seen = v3_sub(v3_mad(ray.origin, ray.direction, 1.0 / ahead), v3_add(c.origin, c.forward));
+            assert_true(fabs(v3_dot(seen, c.right) - expected[i][0]) < 1e-6);
+            assert_true(fabs(v3_dot(seen, c.up) - expected[i][1]) < 1e-6);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_window_is_the_part_of_the_plane_that_fills_the_picture),
         cmocka_unit_test(the_middle_of_the_picture_looks_at_the_target),
         cmocka_unit_test(the_edges_of_a_perspective_picture_are_at_half_the_field_of_view),
         cmocka_unit_test(an_orthographic_picture_is_as_large_as_its_magnification_says),

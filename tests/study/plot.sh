@@ -8,9 +8,9 @@ for script in "$1".gnuplot "$1"_*.gnuplot; do
     figure=$folder/${script%.gnuplot}
     # Written beside and renamed: an interrupted run leaves no half a picture.
     gnuplot -e "folder='$folder'; set terminal pngcairo size 900,560 font 'DejaVu Sans,11'; set output '$figure.part'" \
-        style.gnuplot "$script"
+        ../../src/study/style.gnuplot "$script"
     mv "$figure.part" "$figure.png"
     gnuplot -e "folder='$folder'; set terminal svg size 900,560 font 'DejaVu Sans,11' background 'white'; set output '$figure.part'" \
-        style.gnuplot "$script"
+        ../../src/study/style.gnuplot "$script"
     mv "$figure.part" "$figure.svg"
 done

@@ -36,7 +36,9 @@ static grid_point locate(const placed *p)
     float j[4];
     jacobian_of(&p->e, j);
     const grid_ellipse e = grid_ellipse_of(j[0], j[1], j[2], j[3], grid_area(j[0], j[1], j[2], j[3]), 0.0F);
-    return grid_locate(p->u, p->v, &e, 77U);
+    grid_point g;
+    grid_locate(p->u, p->v, &e, 77U, &g);
+    return g;
 }
 
 static placed random_place(uint64_t *random, double most_aspect)

@@ -9,13 +9,17 @@ NAME = "EXT_lights_area"
 
 ROUND = {"DISK", "ELLIPSE"}
 
+# Cycles gives an area light of power P and area A the radiance P / (4 A), not a Lambertian emitter's P / (pi A): measured
+# by tests/plugin/test_cycles_flakes.py.
+WATTS_PER_RADIANCE = 4.0
 
-def _sides(light):
+
+def sides(light):
     """Width and height; Blender's second size counts for two of its shapes only."""
     return light.size, light.size_y if light.shape in {"RECTANGLE", "ELLIPSE"} else light.size
 
 
-def _area(width, height, is_round):
+def area(width, height, is_round):
     return width * height * (math.pi / 4.0 if is_round else 1.0)
 
 
@@ -23,14 +27,13 @@ def of_light(light):
     """The node's extension for a light of Blender's: a reference to one in the file's list."""
     from io_scene_gltf2.io.com.gltf2_io_extensions import ChildOfRootExtension, Extension
 
-    width, height = _sides(light)
+    width, height = sides(light)
     is_round = light.shape in ROUND
     content = {
         "type": "disk" if is_round else "rect",
         "name": light.name,
         "color": list(light.color),
-        # A Lambertian emitter of power P and area A has the radiance P / (pi A).
-        "intensity": light.energy / (math.pi * _area(width, height, is_round)),
+        "intensity": light.energy / (WATTS_PER_RADIANCE * area(width, height, is_round)),
         "size": height,
     }
     if width != height:
@@ -49,7 +52,7 @@ def add(content, parent, gltf):
     light.shape = ("ELLIPSE" if width != height else "DISK") if is_round else "RECTANGLE"
     light.size, light.size_y = width, height
     light.color = content.get("color", [1.0, 1.0, 1.0])
-    light.energy = content.get("intensity", 1000.0) * math.pi * _area(width, height, is_round)
+    light.energy = content.get("intensity", 1000.0) * WATTS_PER_RADIANCE * area(width, height, is_round)
     made = bpy.data.objects.new(parent.name, light)
     made.parent = parent
     # The importer turns y up into z up; a light then looks along its own y.

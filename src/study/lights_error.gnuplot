@@ -8,8 +8,8 @@ set cbrange [1e-4:1]
 set format x '10^{%L}'
 set format cb '10^{%L}'
 set key outside top right horizontal
-table = folder.'/lights_error.csv'
 worse(x) = abs(x) < 1e-4 ? 1e-4 : abs(x)
+of(name) = stringcolumn(1) eq name ? column(5) : NaN
 plot [1e-6:1] [0.1:1] \
-    '< grep GGX '.table using 5:2:(worse($6)) with points pointtype 7 pointsize 0.35 linecolor palette title 'GGX', \
-    '< grep Beckmann '.table using 5:2:(worse($6)) with points pointtype 9 pointsize 0.45 linecolor palette title 'Beckmann'
+    'lights_error.csv' using (of('GGX')):2:(worse($6)) with points pointtype 7 pointsize 0.35 linecolor palette title 'GGX', \
+    'lights_error.csv' using (of('Beckmann')):2:(worse($6)) with points pointtype 9 pointsize 0.45 linecolor palette title 'Beckmann'

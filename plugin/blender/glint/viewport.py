@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A view that fills in sample by sample: one thread owns the library's scene and picture, the main one only asks and looks.
+
+The main thread puts down what it wants, a scene or a view, and wakes the thread, which drops what it is doing.
+"""
+
+import dataclasses
+import threading
+
+import numpy
+
+from . import abi
+from .library import GlintError, Picture, Scene
+
+# While somebody turns the view a first picture of a sixteenth of the pixels is there at once.
+DRAFT = 4
+
+
+@dataclasses.dataclass
+class View:
+    """What a picture depends on besides the scene."""
+
+    camera: abi.Camera
+    width: int
+    height: int
+    samples: int
+    bounces: int
+    seed: int
+    transparent: bool
+
+    def same_as(self, other):
+        return other is not None and bytes(self.camera) == bytes(other.camera) and all(
+            getattr(self, field.name) == getattr(other, field.name)
+            for field in dataclasses.fields(self) if field.name != "camera"
+        )
+
+
+@dataclasses.dataclass
+class Frame:
+    """Pixels to show."""
+
+    pixels: numpy.ndarray
+    width: int
+    height: int
+    view: View
+    samples: int
+
+
+class Session:
+    """The thread and what it shares. redraw() is called by it whenever there is something new to see."""
+
+    def __init__(self, redraw):
+        self._redraw = redraw
+        self._wake = threading.Condition()
+        self._description = self._model = self._view = None
+        self._changed = self._ending = False
+        self._picture = None
+        self.frame, self.problem, self.warnings = None, "", []
+        self._thread = threading.Thread(target=self._work, name="glint viewport", daemon=True)
+        self._thread.start()
+
+    # ---- called by the main thread ----
+
+    def show_scene(self, description, model):
+        with self._wake:
+            self._description, self._model = description, model
+            self._interrupt()
+
+    def show_view(self, view):
+        """Begins anew where the view is another one."""
+        with self._wake:
+            if not view.same_as(self._view):
+                self._view = view
+                self._interrupt()
+
+    def close(self):
+        """Ends the thread; returns when it is gone."""
+        with self._wake:
+            self._ending = True
+            self._interrupt()
+        self._thread.join()
+
+    def is_done(self):
+        frame = self.frame
+        return bool(self.problem) or (frame is not None and frame.view is self._view and frame.samples == frame.view.samples
+                                      and not self._changed)
+
+    def _interrupt(self):
+        self._changed = True
+        if self._picture is not None:
+            self._picture.cancel()
+        self._wake.notify()
+
+    # ---- the thread ----
+
+    def _work(self):
+        scene = None
+        while True:
+            with self._wake:
+                while not self._changed:
+                    self._wake.wait()
+                self._changed = False
+                if self._ending:
+                    break
+                description, self._description = self._description, None
+                model, view = self._model, self._view
+            try:
+                if description is not None:
+                    if scene is not None:
+                        scene.close()
+                        scene = None
+                    scene = Scene(description, model)
+                    self.problem, self.warnings = "", description.warnings + scene.warnings
+                if scene is not None and view is not None:
+                    self._render(scene, view)
+            except GlintError as problem:
+                self.problem = str(problem)
+                self._redraw()
+        if scene is not None:
+            scene.close()
+
+    def _render(self, scene, view):
+        draft = dataclasses.replace(view, width=max(view.width // DRAFT, 1), height=max(view.height // DRAFT, 1), samples=1)
+        if self._grow(scene, draft, view, (1,)):
+            steps = [2**k for k in range(view.samples.bit_length()) if 2**k < view.samples]
+            # In the end every pass takes as long as it takes to see a difference: an eighth of what there is.
+            fine = [min(n, view.samples) for n in _steps_after(steps, view.samples)]
+            self._grow(scene, view, view, fine)
+
+    def _grow(self, scene, settings, view, steps):
+        """False: interrupted."""
+        picture = Picture(scene, settings.camera, settings.width, settings.height, samples=settings.samples,
+                          bounces=settings.bounces, seed=settings.seed, transparent=int(settings.transparent), passes=0)
+        try:
+            with self._wake:
+                if self._changed:
+                    return False
+                self._picture = picture
+            for samples in steps:
+                if not picture.refine(samples):
+                    return False
+                done = samples if settings is view else 0
+                self.frame = Frame(picture.read(abi.COMBINED), settings.width, settings.height, view, done)
+                self._redraw()
+            return True
+        finally:
+            with self._wake:
+                self._picture = None
+            picture.close()
+
+
+def _steps_after(doubling, last):
+    """1, 2, 4 and 8 samples, then an eighth more each time, and the last."""
+    steps = [n for n in doubling if n <= 8]
+    n = steps[-1] if steps else 1
+    while n < last:
+        n = max(n + n // 8, n + 1)
+        steps.append(min(n, last))
+    return steps or [last]

@@ -1,0 +1,75 @@
+/* Four lanes on SSE2, or SSE4.1 where the compiler may use it. */
+#ifndef MATH_LANES_SSE_H
+#define MATH_LANES_SSE_H
+
+#include <immintrin.h>
+
+#include "math/lanes_mask.h"
+
+static inline int any(vmask m)
+{
+    return _mm_movemask_ps((__m128)m) != 0;
+}
+
+static inline vfloat min_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm_min_ps((__m128)a, (__m128)b);
+}
+
+static inline vfloat max_f(vfloat a, vfloat b)
+{
+    return (vfloat)_mm_max_ps((__m128)a, (__m128)b);
+}
+
+static inline vint min_i(vint a, vint b)
+{
+    return choose_i(less_i(a, b), a, b);
+}
+
+static inline vfloat sqrt_f(vfloat x)
+{
+    return (vfloat)_mm_sqrt_ps((__m128)x);
+}
+
+#if defined(__SSE4_1__)
+
+static inline vfloat floor_f(vfloat x)
+{
+    return (vfloat)_mm_floor_ps((__m128)x);
+}
+
+#else
+
+/* Truncates and goes one down where that went up. From 2^23 on every float is whole. */
+static inline vfloat floor_f(vfloat x)
+{
+    const vfloat whole = to_float(to_int(x));
+    const vfloat down = whole - choose(less(x, whole), splat(1.0F), splat(0.0F));
+    const vmask small = (vfloat)((vint)x & 0x7fffffff) < 8388608.0F;
+    return choose(small, down, x);
+}
+
+#endif
+
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    return (vfloat){ table[index[0]], table[index[1]], table[index[2]], table[index[3]] };
+}
+
+static inline vdouble widen(vfloat f)
+{
+    return (vdouble){ (half_double)_mm_cvtps_pd((__m128)f),
+                      (half_double)_mm_cvtps_pd(_mm_movehl_ps((__m128)f, (__m128)f)) };
+}
+
+static inline vfloat narrow(vdouble d)
+{
+    return (vfloat)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)d.low), _mm_cvtpd_ps((__m128d)d.high));
+}
+
+static inline vuint low_word(vdouble d)
+{
+    return (vuint)_mm_shuffle_ps((__m128)d.low, (__m128)d.high, 0x88);
+}
+
+#endif

@@ -1,0 +1,41 @@
+/* What a render owns, in two parts: the stage, which all pictures of a scene share, and the view of one camera. */
+#ifndef PREVIEW_STAGE_H
+#define PREVIEW_STAGE_H
+
+#include "preview/planned.h"
+
+typedef struct stage {
+    const scene *scene;
+    geometry geometry;
+    trace_scene *trace;
+    materials materials;
+    textures *textures;
+    shader shader;
+    environment_map own_map; /* of the scene's image-based light */
+    environment environment;
+    bool has_environment;
+    emitters emitters;
+} stage;
+
+/* Of the options counts what preview_stage_open says. The stage may not move afterwards: the tracer points into it.
+ * Whether it succeeds or not, stage_take_down frees what there is. */
+bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r);
+void stage_take_down(stage *st);
+
+typedef struct view {
+    camera camera;
+    light *lights;
+    planned planned; /* where the options leave something out */
+    world world;
+} view;
+
+/* The view may not move either. */
+bool view_set_up(view *v, const stage *st, const preview_options *o, report *r);
+void view_take_down(view *v);
+
+bool stage_check_options(const preview_options *o, report *r);
+/* An error when the explicit model met more facets than it visits. */
+bool stage_check_counts(const stage *st, const ray_counts *counts, report *r);
+void stage_count(const ray_counts *counts, preview_statistics *statistics);
+
+#endif

@@ -1,0 +1,28 @@
+/* The study of lights of real size: where the fast integral is off and by how much, parts of a light against the whole
+ * (Appendix C and Fig. 9 of Kneiphof and Klein 2024), and how counts converge to the smooth surface (Fig. 10). */
+#include "study/lights.h"
+
+extern const unsigned char lights_error_gnuplot[];
+
+static void measure(study_run *run)
+{
+    lights_measure_errors(run, 0.0, 0.8);
+    lights_measure_parts(run, 0.8, 0.9);
+    lights_measure_convergence(run, 0.9, 1.0);
+}
+
+static const study_figure figures[] = {
+    { "lights_error", "Error of the fast integral over its exact value, one point a random light",
+      lights_error_gnuplot },
+    { NULL, NULL, NULL },
+};
+
+extern const study lights_study;
+
+const study lights_study = {
+    .name = "lights",
+    .title = "Lights of real size",
+    .truth = "the boundary integral, which is held against brute force, and the binomial law",
+    .run = measure,
+    .figures = figures,
+};

@@ -1,0 +1,12 @@
+/* The parts of the study of lights of real size. */
+#ifndef STUDY_LIGHTS_H
+#define STUDY_LIGHTS_H
+
+#include "study/study.h"
+
+/* Each goes on from `from` to `to`, shares of the whole study. */
+void lights_measure_errors(study_run *run, double from, double to);
+void lights_measure_parts(study_run *run, double from, double to);
+void lights_measure_convergence(study_run *run, double from, double to);
+
+#endif

@@ -1,0 +1,85 @@
+/* The counting kernel at every width of this machine against the method as published.
+ *
+ * bench/kernel FILE.json [rounds]. Every contestant's mean is checked, so that nothing wins by doing less.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "published_count.h"
+#include "race.h"
+#include "workload.h"
+
+enum { MOST_RACERS = 6 };
+
+typedef struct runner {
+    counting_kernel *kernel;
+    workload *work;
+} runner;
+
+static void run(void *user)
+{
+    const runner *const r = user;
+    r->kernel(&r->work->points, WORKLOAD_POINTS, r->work->factor, r->work->facets);
+}
+
+/* Mean of factor, weighted with the lit facets, so that rare bright points do not drown the rest: 1 for a binomial. */
+static double weighted_mean(const workload *w)
+{
+    double sum = 0.0, weight = 0.0;
+    for (int i = 0; i < WORKLOAD_POINTS; i++) {
+        const double lit = fmin((double)w->facets[i] * (double)w->p[i], 100.0);
+        sum += lit * (double)w->factor[i];
+        weight += lit;
+    }
+    return sum / weight;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        fprintf(stderr, "usage: %s FILE.json [ROUNDS]\n", argv[0]);
+        return 2;
+    }
+    const int rounds = argc > 2 ? atoi(argv[2]) : 60;
+    FILE *const json = fopen(argv[1], "w");
+    if (json == NULL || rounds < 1) {
+        fprintf(stderr, "bench: cannot write '%s', or the rounds are not a number above 0\n", argv[1]);
+        return 2;
+    }
+    racer racers[MOST_RACERS] = { { "as published, scalar", run, NULL } };
+    runner runners[MOST_RACERS] = { { published_count, NULL } };
+    static const char *const names[] = { "ours, 1 lane", "ours, 4 lanes", "ours, 8 lanes", "ours, 16 lanes" };
+    size_t count = 1, found = 0;
+    for (size_t i = 0; i < 4; i++) {
+        const counting_width width = counting_widest(i == 0 ? 1 : (size_t)2 << i);
+        if (width.lanes == found)
+            continue;
+        found = width.lanes;
+        racers[count].name = names[i];
+        racers[count].run = run;
+        runners[count++].kernel = width.kernel;
+    }
+    racers[count] = (racer){ "ours, one point in 4 lanes", run, NULL };
+    runners[count++].kernel = counting_narrowest().kernel;
+    static workload work;
+    fprintf(json, "{\n");
+    for (int k = 0; k < WORKLOAD_KINDS; k++) {
+        race_result result[MOST_RACERS];
+        workload_fill(&work, &workload_kinds[k]);
+        for (size_t i = 0; i < count; i++) {
+            runners[i].work = &work;
+            racers[i].user = &runners[i];
+        }
+        race(racers, count, WORKLOAD_POINTS, rounds, result);
+        race_print(work.name, racers, count, result);
+        race_write(json, work.name, racers, count, result);
+        fprintf(json, k + 1 < WORKLOAD_KINDS ? ",\n" : "\n}\n");
+        printf("  mean of b / (N p):");
+        for (size_t i = 0; i < count; i++) {
+            run(&runners[i]);
+            printf(" %.3f", weighted_mean(&work));
+        }
+        printf("\n\n");
+    }
+    return fclose(json) != 0;
+}
