@@ -138,7 +138,7 @@ static double bar_of(const double *sorted, int count, double quantile)
     return 0.5 * (sorted[high] - sorted[low]);
 }
 
-static void report_fronts(study_run *run, const double cost[METHODS], double *errors, int count)
+static void report_fronts(study_run *run, const double cost[METHODS], const double *errors, int count)
 {
     static const study_dial usual = {
         "integrals_front.csv",
