@@ -57,9 +57,9 @@ static double integrate(int method, const glint_material *m[2], const glint_surf
         }
         return sum / n;
     }
-    for (int i = 0; i < n * n; i++)
-        sum +=
-            sample_light(m[0], s, c->wo, &c->light, (2.0 * (i % n) + 1.0) / n - 1.0, (2.0 * (i / n) + 1.0) / n - 1.0);
+    for (int row = 0; row < n; row++)
+        for (int column = 0; column < n; column++)
+            sum += sample_light(m[0], s, c->wo, &c->light, (2.0 * column + 1.0) / n - 1.0, (2.0 * row + 1.0) / n - 1.0);
     return sum / (n * n);
 }
 
