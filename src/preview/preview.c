@@ -115,10 +115,10 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
     if (!textures_open(s, &st->textures, r))
         return false;
     const double loaded = now_s();
-    st->shader = (shader){ s, &st->materials, st->textures };
-    if (!set_environment(st, o, r) || !materials_make(s, o->model, o->facets, NULL, &st->materials, r) ||
-        !geometry_make(s, &st->geometry, r) || !trace_build(&st->geometry, opacity_at, st, &st->trace, r) ||
-        !emitters_make(&st->geometry, &st->emitters, r))
+    st->shader = (shader){ s, &st->materials, st->textures, NULL };
+    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
+        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+        !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
@@ -131,6 +131,7 @@ void stage_take_down(stage *st)
     geometry_free(&st->geometry);
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
+    shader_close(&st->shader);
     textures_close(st->textures);
     emitters_free(&st->emitters);
     environment_free(&st->environment);

@@ -1,8 +1,7 @@
 /* A few hundred pixels, spread evenly over the picture, with a few samples each.
  *
  * Of every light at the first surface it is noted how many facets it lights in the pixel, and which part of the pixel's
- * light that is; of whole samples, how much they differ and what bounces bring. Products of different samples have the
- * square of the mean as their mean, so that noise is not taken for light.
+ * light that is; of whole samples, how much they differ and what bounces bring.
  */
 #include "preview/survey.h"
 
@@ -15,7 +14,7 @@
 #include "preview/surroundings.h"
 #include "scene/surface.h"
 
-/* Samples of a pixel: enough for a variance, and for products of two of them. */
+/* Samples of a pixel: enough for a variance. */
 #define SAMPLES 4
 /* Pixels are as many as cost no more than one sample in so many, within limits. Taste. */
 #define RENDERED_FOR_ONE 800
@@ -42,28 +41,31 @@ static double level(const float rgb[3])
 /* Returns the light of the pixel; 0: it is black. */
 static double look_at_samples(tally *t, int x, int y)
 {
-    double whole[SAMPLES], less[SAMPLES], sum = 0.0, square = 0.0;
+    double sum = 0.0, square = 0.0, direct = 0.0;
+    bool is_surface = false;
     for (uint32_t i = 0; i < SAMPLES; ++i) {
-        pixel_sample a, b;
+        pixel_sample whole, less;
         ray_counts counts = { 0 }, fewer = { 0 };
-        integrate(t->world, x, y, i, &a, &counts);
-        whole[i] = level(a.light.smooth);
-        less[i] = whole[i];
+        integrate(t->world, x, y, i, &whole, &counts);
+        less = whole;
         t->bounce_rays += (double)counts.bounce_rays / SAMPLES;
         if (t->world->bounces > 0) {
-            integrate(t->direct, x, y, i, &b, &fewer);
-            less[i] = level(b.light.smooth);
+            integrate(t->direct, x, y, i, &less, &fewer);
             t->bounce_rays -= (double)fewer.bounce_rays / SAMPLES;
         }
-        sum += whole[i];
-        square += whole[i] * whole[i];
+        sum += level(whole.light.smooth);
+        square += level(whole.light.smooth) * level(whole.light.smooth);
+        direct += level(less.light.smooth);
+        is_surface = is_surface || whole.depth > 0.0F;
     }
+    /* Where no light comes straight from a light, bounces bring all that there is, however few of them find it. */
+    if (t->world->bounces > 0 && is_surface && !(direct > 0.0))
+        t->bounced += 1.0;
+    else if (sum > 0.0)
+        t->bounced += (sum - direct) * (sum - direct) / (sum * sum);
     const double mean = sum / SAMPLES;
-    if (!(mean > 0.0))
-        return 0.0;
-    t->noise += fmax(square - sum * mean, 0.0) / (SAMPLES - 1) / (mean * mean);
-    for (int i = 0; i < SAMPLES; i += 2)
-        t->bounced += (whole[i] - less[i]) * (whole[i + 1] - less[i + 1]) / (mean * mean * (SAMPLES / 2));
+    if (mean > 0.0)
+        t->noise += fmax(square - sum * mean, 0.0) / (SAMPLES - 1) / (mean * mean);
     return mean;
 }
 
