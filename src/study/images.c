@@ -233,7 +233,7 @@ static void check_accuracies(study_run *run, picture_error (*found)[ACCURACIES +
         "seconds of one core",
         "cost_s",
         "what was left out, over the mean",
-        "Take --accuracy .02 for a look and 0 for a reference: budgets hold, and save little time so far."
+        "Take --accuracy .1 for a look and 0 for a picture: budgets hold, and save little time so far."
     };
     study_front(run, &dial, settings, ACCURACIES + 1);
 }

@@ -11,7 +11,7 @@ plot [0.0015:0.3] [1e-5:0.5] x with lines linetype 7 dashtype 2 title 'the budge
     for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
     sprintf('< grep "^%s,0\\.[0-9]" images_accuracy.csv', name) using 2:(least($4)):5 with yerrorlines linetype k title name
 unset logscale y
-set xlabel "--accuracy\n{/*0.85 Choose .02 for a look: so far a budget saves little time.}"
+set xlabel "--accuracy\n{/*0.85 Choose .1 for a look: so far a budget saves little time.}"
 set ylabel 'time over that without a budget'
 set format y '%g'
 set key bottom left Left reverse
