@@ -207,8 +207,8 @@ class GltfFiles(unittest.TestCase):
             wanted[shape] = holder.matrix_world.copy()
         path, document = export("area.glb")
         lights = {light["name"]: light for light in document["extensions"]["EXT_lights_area"]["lights"]}
-        self.assertAlmostEqual(lights["RECTANGLE"]["intensity"], 7.0 / (math.pi * 0.08), places=4)
-        self.assertAlmostEqual(lights["DISK"]["intensity"], 7.0 / (math.pi * math.pi * 0.0625), places=4)
+        self.assertAlmostEqual(lights["RECTANGLE"]["intensity"], 7.0 / (4.0 * 0.08), places=4)
+        self.assertAlmostEqual(lights["DISK"]["intensity"], 7.0 / (4.0 * math.pi * 0.0625), places=4)
         self.assertEqual([lights[n]["type"] for n in ("RECTANGLE", "SQUARE", "DISK")], ["rect", "rect", "disk"])
         self.assertAlmostEqual(lights["RECTANGLE"]["rect"]["aspect"], 2.0, places=5)
         self.assertIn("EXT_lights_area", document["extensionsUsed"])
