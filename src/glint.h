@@ -206,6 +206,15 @@ typedef struct glint_material_options {
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
     glint_layers layers;               /* for GLINT_MODEL_LAYERED */
     glint_area_light_method area_light_method;
+    /* What need not be counted; counting only. Relative standard deviations of one evaluation, [0, 1e6]; 0: count all.
+     *
+     * smooth_deviation  Where the facets under the footprint vary by less than about this, 1 / sqrt(N p), the smooth
+     *                   value stands for them. From there up to twice as much they are blended in, and what is left out
+     *                   never varies by more than this. The mean stays.
+     * draw_deviation    Where one of the model's 48 realisations varies by less than this, 3 / sqrt(N p), one stands
+     * for all; glint_footprint.draw chooses, and the mean over draws is the sum of all. Not of facets of different
+     * colours. */
+    float smooth_deviation, draw_deviation;
 } glint_material_options;
 
 /* GGX, alpha .25, a white mirror on every facet, 1e8 facets per m^2, counting. */
@@ -236,7 +245,7 @@ typedef struct glint_material_options {
         sizeof(glint_material_options), GLINT_MODEL_COUNTING, GLINT_DISTRIBUTION_GGX, GLINT_FRESNEL_SCHLICK,           \
             GLINT_WEIGHTING_EQUAL_AREA, GLINT_SURFACE_INIT, 1.5F, { 0.2F, 0.92F, 1.1F }, { 3.9F, 2.45F, 2.14F }, 0.0F, \
             1.0F, 1.0F, 0U, { 0, 0, 0 }, GLINT_FACET_HASH_CYCLES, 1000000U, 0.0F, 4.0F, 0.0F, 0U,                      \
-            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT, GLINT_AREA_LIGHT_FAST                     \
+            { { 0.0F, 0.0F, 0.0F } }, GLINT_EXAMPLE_INIT, GLINT_LAYERS_INIT, GLINT_AREA_LIGHT_FAST, 0.0F, 0.0F         \
     }
 
 typedef struct glint_material glint_material;
@@ -293,6 +302,7 @@ typedef struct glint_footprint {
     float dudx, dudy; /* metres per pixel, to the right (x) and downwards (y) */
     float dvdx, dvdy;
     uint32_t seed; /* which object this is: added to the material's seed; 0 is fine */
+    uint32_t draw; /* for draw_deviation: even over all 32-bit numbers, another one for every sample of a pixel */
 } glint_footprint;
 
 typedef enum glint_light_kind {
@@ -427,16 +437,152 @@ typedef struct glint_batch {
     const glint_surface *surfaces;       /* NULL: the material's own everywhere */
     float *rgb[3];                       /* out */
     const glint_area_light *area_lights; /* NULL: caps. Else wi and solid_angle_sr are not read, and may be NULL */
+    const uint32_t *draw;                /* NULL: 0 everywhere */
 } glint_batch;
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0                    \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0, 0                 \
     }
 
 /* glint_eval, or glint_eval_area, for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is
  * missing. */
 GLINT_API glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch);
+
+/* ---- the plan: what a picture may leave out ----
+ *
+ * Before a render a client looks at a few hundred pixels, says what it saw in a summary, and gets a plan: for each
+ * material and light what has to be done so that the picture stays within an error, with a reason, a cost and an error
+ * for each decision. docs/plan.md has the variances behind it. All errors are relative to the light of a pixel and root
+ * mean squares over the pixels. */
+
+enum { GLINT_PLAN_BINS = 48 };
+
+/* In which bin a pixel with so many lit facets, N p, belongs: powers of two from 2^-16 on; the last holds all above. */
+GLINT_API uint32_t glint_plan_bin(float lit_facets);
+
+typedef struct glint_plan_range {
+    float least, most;
+} glint_plan_range;
+
+/* A material over the picture, textures multiplied in. */
+typedef struct glint_plan_material {
+    const char *name;                   /* NULL: none */
+    const glint_material_options *base; /* as the scene asks for it */
+    const glint_material_options *coat; /* NULL: there is none */
+    float seen;                         /* [0, 1], samples that see it first */
+    uint32_t texture_count;             /* but for normal maps */
+    uint32_t normal_map_count;
+    uint32_t is_cut_out;            /* its alpha masks or blends */
+    glint_plan_range alpha;         /* alpha_x and alpha_y; these three are read where it is seen */
+    glint_plan_range facets_per_m2; /* 0: no facets are counted */
+    glint_plan_range footprint_m2;  /* of a pixel on the surface */
+} glint_plan_material;
+
+typedef enum glint_plan_light_kind {
+    GLINT_PLAN_LIGHT_CAP = 0,     /* evaluated around one direction */
+    GLINT_PLAN_LIGHT_SHAPE,       /* evaluated as a shape: glint_area_light */
+    GLINT_PLAN_LIGHT_SURROUNDINGS /* sampled: an environment, glowing surfaces */
+} glint_plan_light_kind;
+
+typedef struct glint_plan_light {
+    const char *name; /* NULL: none */
+    glint_plan_light_kind kind;
+    uint32_t patch_count; /* surroundings: patches of even light; 0: not known */
+    uint32_t shadow_rays, blocked_rays;
+} glint_plan_light;
+
+/* One light on one material, over the picture. */
+typedef struct glint_plan_pair {
+    uint32_t material, light;
+    float seen;                   /* evaluations per sample */
+    float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
+                                     this light's part of the pixel; 0 where no facets are counted */
+    float rate[GLINT_PLAN_BINS];  /* and how many evaluations per sample there are */
+} glint_plan_pair;
+
+typedef struct glint_plan_summary {
+    size_t size; /* set by GLINT_PLAN_SUMMARY_INIT */
+    const glint_plan_material *materials;
+    const glint_plan_light *lights;
+    const glint_plan_pair *pairs;
+    uint32_t material_count, light_count, pair_count;
+    uint32_t samples_per_pixel; /* >= 1 */
+    uint32_t tiles_per_pixel;   /* >= 1: a pixel's facets are counted in so many footprints side by side */
+    uint32_t pixel_count;       /* that were looked at */
+    uint32_t bounces;           /* of indirect light that are asked for */
+    float bounce_rays;          /* per sample */
+    float bounced;              /* what they bring to a pixel, relative */
+    float noise;                /* relative standard deviation of one sample, but for facets */
+    float error_budget;         /* (0, 1]; 0: nothing may be left out */
+    glint_allocator allocator;  /* all NULL: malloc and free */
+} glint_plan_summary;
+
+#define GLINT_PLAN_SUMMARY_INIT                                                                                        \
+    {                                                                                                                  \
+        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.02F,                           \
+        {                                                                                                              \
+            0, 0, 0                                                                                                    \
+        }                                                                                                              \
+    }
+
+typedef enum glint_effect {
+    GLINT_EFFECT_SURFACES = 0, /* rays of the camera, and what they hit */
+    GLINT_EFFECT_FACETS,       /* single facets of a material under a light */
+    GLINT_EFFECT_LOOKUPS,
+    GLINT_EFFECT_COLORS,
+    GLINT_EFFECT_LAYERS,
+    GLINT_EFFECT_ANISOTROPY,
+    GLINT_EFFECT_TEXTURES,
+    GLINT_EFFECT_NORMAL_MAPS,
+    GLINT_EFFECT_ALPHA,
+    GLINT_EFFECT_LIGHT, /* how the smooth reflection of a light is found */
+    GLINT_EFFECT_SHADOWS,
+    GLINT_EFFECT_BOUNCES,
+    GLINT_EFFECT_SAMPLES /* the noise that the samples of a pixel leave */
+} glint_effect;
+
+/* "facets"; NULL when there is no such effect. */
+GLINT_API const char *glint_effect_name(glint_effect effect);
+
+typedef struct glint_decision {
+    glint_effect effect;
+    int32_t material, light; /* indices of the summary; -1: of the whole picture */
+    uint32_t is_on;
+    char choice[24];     /* "counted", "LTC" */
+    char reason[168];    /* with its number, without a full stop */
+    float ns_per_sample; /* by src/plan/cost_table.c; 0 where it is off */
+    float time_share;    /* [0, 1] of the whole picture */
+    float error;         /* that it adds */
+} glint_decision;
+
+typedef struct glint_plan glint_plan;
+
+/* On failure *plan is NULL, and the message names what was found and expected, as for glint_material_create. */
+GLINT_API glint_result glint_plan_create(const glint_plan_summary *summary, glint_plan **plan, char *message,
+                                         size_t message_size);
+/* NULL is allowed. */
+GLINT_API void glint_plan_destroy(glint_plan *plan);
+
+GLINT_API uint32_t glint_plan_decision_count(const glint_plan *plan);
+/* NULL behind the last. They belong to the plan. */
+GLINT_API const glint_decision *glint_plan_decision(const glint_plan *plan, uint32_t index);
+
+/* The whole of it. */
+typedef struct glint_plan_outcome {
+    float error;             /* of what is left out */
+    float noise;             /* of the samples */
+    float ns_per_sample;     /* of one core, by the table */
+    uint32_t is_met;         /* error and noise together are within the budget */
+    uint32_t bounces;        /* to be traced */
+    uint32_t enough_samples; /* per pixel, for the noise to be within what the error leaves; 0: no number is */
+} glint_plan_outcome;
+
+GLINT_API glint_plan_outcome glint_plan_result(const glint_plan *plan);
+/* Takes out of the options of a layer of a material what the plan leaves out: model, deviations, area_light_method. */
+GLINT_API void glint_plan_cut(const glint_plan *plan, uint32_t material, glint_material_options *options);
+/* 1: the light needs shadow rays. */
+GLINT_API int glint_plan_shadows(const glint_plan *plan, uint32_t light);
 
 #ifdef __cplusplus
 }

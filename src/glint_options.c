@@ -26,7 +26,7 @@ void complain(complaint *c, glint_result result, const char *format, ...)
 static void check(complaint *c, const char *name, float x, float low, float high)
 {
     if (!in_range(x, low, high))
-        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected %g to %g", name, (double)x, (double)low, (double)high);
+        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected %g to %g", name, printable(x), (double)low, (double)high);
 }
 
 static void check_enum(complaint *c, const char *name, unsigned value, unsigned last)
@@ -71,14 +71,15 @@ static void check_colors(complaint *c, const glint_material_options *o)
 static void check_signed(complaint *c, const char *name, float x, float most)
 {
     if (!in_range(fabsf(x), 0.0F, most))
-        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected %g to %g", name, (double)x, (double)-most, (double)most);
+        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected %g to %g", name, printable(x), (double)-most, (double)most);
 }
 
 /* 0, or low <= x <= high. */
 static void check_or_zero(complaint *c, const char *name, float x, float low, float high)
 {
     if (!in_range(x, 0.0F, 0.0F) && !in_range(x, low, high))
-        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected 0 or %g to %g", name, (double)x, (double)low, (double)high);
+        complain(c, GLINT_ERROR_RANGE, "%s is %g, expected 0 or %g to %g", name, printable(x), (double)low,
+                 (double)high);
 }
 
 static void check_example_normals(complaint *c, const glint_example *e)
@@ -90,7 +91,7 @@ static void check_example_normals(complaint *c, const glint_example *e)
             complain(c, GLINT_ERROR_RANGE,
                      "example.normals[%u] (row %u, column %u) begins with %g, %g, expected a normal with z > 0 and a "
                      "slope of at most 8",
-                     i, i / e->size, i % e->size, (double)n[0], (double)n[1]);
+                     i, i / e->size, i % e->size, printable(n[0]), printable(n[1]));
             return;
         }
     }
@@ -143,13 +144,20 @@ static void check_example(complaint *c, const glint_example *e)
         check_example_normals(c, e);
 }
 
-/* |v|^2 is 1 give or take what rounding and typed digits do. */
+/* |v|^2 is 1 give or take what rounding and typed digits do. No product of numbers that are none. */
+static int is_unit(const float v[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (!is_below(v[i], 1.02F))
+            return 0;
+    return in_range(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], 0.98F, 1.02F);
+}
+
 static void check_unit(complaint *c, const char *name, const float v[3])
 {
-    const float length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (!in_range(length2, 0.98F, 1.02F))
-        complain(c, GLINT_ERROR_RANGE, "%s is (%g, %g, %g), expected a vector of length 1", name, (double)v[0],
-                 (double)v[1], (double)v[2]);
+    if (!is_unit(v))
+        complain(c, GLINT_ERROR_RANGE, "%s is (%g, %g, %g), expected a vector of length 1", name, printable(v[0]),
+                 printable(v[1]), printable(v[2]));
 }
 
 static void check_layers(complaint *c, const glint_layers *layers)
@@ -179,6 +187,8 @@ static void check_values(complaint *c, const glint_material_options *o)
     check(c, "elongation", o->elongation, 1.0F, 1e4F);
     check(c, "density_variation", o->density_variation, 0.0F, 8.0F);
     check(c, "max_anisotropy", o->max_anisotropy, 1.0F, 16.0F);
+    check(c, "smooth_deviation", o->smooth_deviation, 0.0F, 1e6F);
+    check(c, "draw_deviation", o->draw_deviation, 0.0F, 1e6F);
     check_colors(c, o);
     if (o->fresnel == GLINT_FRESNEL_DIELECTRIC)
         check(c, "ior", o->ior, 1.0001F, 10.0F);

@@ -130,8 +130,7 @@ static bool export_scene(povray *p)
         p->light_count = p->scene->light_count;
         p->studio = p->light_count == 0;
         if (p->studio) {
-            report_warning(p->report, "%s: there are no lights; a studio with three lights and a sky is added",
-                           p->options->input);
+            notes_add(p->notes, NULL, "there are no lights; a studio with three lights and a sky is added");
             studio_lights(p, studio);
             p->lights = studio;
             p->light_count = STUDIO_LIGHTS;
@@ -152,7 +151,7 @@ static bool export_scene(povray *p)
     return done;
 }
 
-static bool read_and_export(const glint_export_povray_options *o, report *r)
+static bool read_and_export(const glint_export_povray_options *o, notes *n, report *r)
 {
     const scene_file_options reading = { 0 };
     scene s = { 0 };
@@ -162,7 +161,7 @@ static bool read_and_export(const glint_export_povray_options *o, report *r)
         done = preset_apply(&s, o->materials[i].name, o->materials[i].value, r);
     done = done && textures_open(&s, &maps, r);
     if (done) {
-        povray p = { .scene = &s, .options = o, .textures = maps, .report = r };
+        povray p = { .scene = &s, .options = o, .textures = maps, .report = r, .notes = n };
         done = export_scene(&p);
     }
     textures_close(maps);
@@ -184,7 +183,10 @@ glint_export_result glint_export_povray(const glint_export_povray_options *optio
     if (c == (locale_t)0)
         return export_result(&r, report_error(&r, "%s: out of memory", options->input), message, message_size);
     const locale_t before = uselocale(c);
-    const bool done = read_and_export(options, &r);
+    notes n;
+    notes_begin(&n, options->input, &r);
+    const bool done = read_and_export(options, &n, &r);
+    notes_end(&n);
     uselocale(before);
     freelocale(c);
     return export_result(&r, done, message, message_size);

@@ -98,7 +98,7 @@ bool eye_choose(povray *p)
     }
     if (s->camera_count > 0)
         return look_through(p, &s->cameras[0]);
-    report_warning(p->report, "%s: there is no camera; one that frames the scene is added", p->options->input);
+    notes_add(p->notes, NULL, "there is no camera; one that frames the scene is added");
     frame(p);
     return true;
 }

@@ -1,4 +1,5 @@
-/* The tilt of a flake, as glint.inc and libglint's explicit model have it: for meshes with a normal for each flake. */
+/* The tilt and the tint of a flake, as glint.inc and libglint's explicit model have it: for meshes with a normal for
+ * each flake. */
 #include "exporters/povray/flake.h"
 
 #include <math.h>
@@ -51,9 +52,19 @@ static double step(double h, double key)
     return fmod(fmod(x * x, MODULUS) * x, MODULUS);
 }
 
+static double cell(int64_t x, int64_t y, uint32_t seed)
+{
+    return step(step(step(0.0, (double)x), (double)y), (double)seed);
+}
+
+double flake_tint(int64_t x, int64_t y, uint32_t seed)
+{
+    return step(step(cell(x, y, seed), 2718281.0), 31337.0) / MODULUS;
+}
+
 void flake_slopes(const flake_law *law, int64_t x, int64_t y, uint32_t seed, double slopes[2])
 {
-    const double h = step(step(step(0.0, (double)x), (double)y), (double)seed);
+    const double h = cell(x, y, seed);
     const double tail = fmax(1.0 - step(h, 1234567.0) / MODULUS, 1e-7);
     const double azimuth = 2.0 * PI * step(step(h, 7654321.0), 77777.0) / MODULUS;
     double q = tail;

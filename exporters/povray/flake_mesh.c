@@ -22,8 +22,10 @@ typedef struct cutter {
     flake_law law;
     uint32_t seed;
     double flakes_u, flakes_v; /* per metre */
+    bool tinted;
     text vertices, faces;
-    uint32_t vertex_count, face_count;
+    text tints, tint_faces; /* one a piece, as its uv vector */
+    uint32_t vertex_count, piece_count, face_count;
 } cutter;
 
 static corner between(const corner *a, const corner *b, double t)
@@ -87,6 +89,13 @@ static vec along_u(const corner t[3])
     return vec_scale(d, determinant < 0.0 ? -1.0 : 1.0);
 }
 
+static void write_face(cutter *c, uint32_t first, uint32_t last)
+{
+    text_print(&c->faces, ",\n  <%u, %u, %u>", first, first + last - 1U, first + last);
+    if (c->tinted)
+        text_print(&c->tint_faces, ",\n  <%u, %u, %u>", c->piece_count, c->piece_count, c->piece_count);
+}
+
 /* Turns a piece about its middle so that the surface's normal becomes the flake's. */
 static void write_piece(cutter *c, const piece *q, vec x_axis, double y_sign, int64_t x, int64_t y)
 {
@@ -112,7 +121,10 @@ static void write_piece(cutter *c, const piece *q, vec x_axis, double y_sign, in
         text_vector(&c->vertices, vec_scale(vec_add(middle, turned), c->p->unit));
     }
     for (int i = 2; i < q->count; ++i, ++c->face_count)
-        text_print(&c->faces, ",\n  <%u, %u, %u>", first, first + (uint32_t)i - 1U, first + (uint32_t)i);
+        write_face(c, first, (uint32_t)i);
+    if (c->tinted)
+        text_print(&c->tints, ",\n  <%.9g, 0>", flake_tint(x, y, c->seed));
+    ++c->piece_count;
 }
 
 static double lowest(const corner t[3], bool u)
@@ -181,7 +193,9 @@ bool flake_mesh_write(const povray *p, const scene_instance *instance, uint32_t 
     const scene_mesh *mesh = &p->scene->meshes[instance->mesh];
     const material_look look = material_look_of(p, mesh->material);
     const double stretch = sqrt((double)look.material->glint.elongation);
+    const scene_glint *g = &look.material->glint;
     cutter c = { .p = p, .instance = instance, .mesh = mesh, .seed = seed };
+    c.tinted = g->color_variation > 0.0F || g->color_count > 0;
     c.law = flake_law_of(look.material->glint.distribution, (double)look.surface.alpha_x, (double)look.surface.alpha_y);
     c.flakes_u = 1.0 / ((double)look.edge_m * stretch);
     c.flakes_v = stretch / (double)look.edge_m;
@@ -195,9 +209,15 @@ bool flake_mesh_write(const povray *p, const scene_instance *instance, uint32_t 
     }
     text_print(out, "#declare Object_%d_Flakes = mesh2 {\n", (int)(instance - p->scene->instances));
     write_list(out, "vertex_vectors", c.vertex_count, &c.vertices);
+    if (c.tinted)
+        write_list(out, "uv_vectors", c.piece_count, &c.tints);
     write_list(out, "face_indices", c.face_count, &c.faces);
+    if (c.tinted)
+        write_list(out, "uv_indices", c.face_count, &c.tint_faces);
     text_print(out, "}\n");
     text_free(&c.vertices);
+    text_free(&c.tints);
     text_free(&c.faces);
+    text_free(&c.tint_faces);
     return true;
 }

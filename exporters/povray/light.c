@@ -1,4 +1,5 @@
 /* Lights with their sizes, in the units of glint.inc. */
+#include <stdio.h>
 #include <string.h>
 
 #include "exporters/povray/povray.h"
@@ -159,6 +160,13 @@ static void write_punctual(const povray *p, const scene_light *l, const char *na
     text_print(out, ")\n");
 }
 
+static void note_light(const povray *p, const char *light, const char *what)
+{
+    char place[NAME_LENGTH + 16];
+    snprintf(place, sizeof place, "light \"%s\"", light);
+    notes_add(p->notes, place, what);
+}
+
 static void write_light(const povray *p, int index, text *out)
 {
     const scene_light *l = &p->lights[index];
@@ -168,16 +176,18 @@ static void write_light(const povray *p, int index, text *out)
         return;
     if (l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK) {
         write_panel(p, l, name, out);
-        report_warning(p->report,
-                       "%s: light \"%s\": POV-Ray's area light shines to all sides alike; that it shines to "
-                       "one side, with the cosine, is left out",
-                       p->options->input, name);
+        note_light(p, name,
+                   "POV-Ray's area light shines to all sides alike; that it shines to one side, with the cosine, is "
+                   "left out");
+        if (l->kind == SCENE_LIGHT_DISK)
+            note_light(p, name, "a disc is exported as a square of its area");
     } else {
         write_punctual(p, l, name, out);
     }
     if (l->range > 0.0F)
-        report_warning(p->report, "%s: light \"%s\": its range of %g m is left out: POV-Ray's light never ends",
-                       p->options->input, name, (double)l->range);
+        note_light(p, name, "its range is left out: POV-Ray's light never ends");
+    if (l->kind == SCENE_LIGHT_SPOT)
+        note_light(p, name, "the edge of its cone is POV-Ray's, which fades a little otherwise between the two angles");
 }
 
 void lights_write(const povray *p, text *out)
@@ -188,5 +198,5 @@ void lights_write(const povray *p, text *out)
         write_light(p, i, out);
     text_print(out, "\n");
     if (p->scene->environment.present)
-        report_warning(p->report, "%s: the environment (EXT_lights_image_based) is left out", p->options->input);
+        notes_add(p->notes, NULL, "the environment (EXT_lights_image_based) is left out");
 }

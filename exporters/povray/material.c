@@ -1,4 +1,5 @@
 /* From a glTF material to the parameters of glint.inc, and what of it POV-Ray cannot show. */
+#include <stdio.h>
 #include <string.h>
 
 #include "exporters/povray/povray.h"
@@ -78,11 +79,12 @@ typedef struct left_out {
 
 static void warn_list(const povray *p, int material, const left_out *list, size_t count)
 {
-    char name[NAME_LENGTH];
+    char name[NAME_LENGTH], place[NAME_LENGTH + 32];
     name_comment(name, p->scene->materials[material].name);
+    snprintf(place, sizeof place, "materials/%d (\"%s\")", material, name);
     for (size_t i = 0; i < count; ++i)
         if (list[i].is_so)
-            report_warning(p->report, "%s: materials/%d (\"%s\"): %s", p->options->input, material, name, list[i].what);
+            notes_add(p->notes, place, list[i].what);
 }
 
 static bool has(const scene_texture *t)
@@ -93,6 +95,18 @@ static bool has(const scene_texture *t)
 static bool tinted(const float c[4])
 {
     return fabsf(c[0] - c[1]) > 1e-6F || fabsf(c[1] - c[2]) > 1e-6F;
+}
+
+/* How many sets its textures use. */
+static int texcoord_sets(const scene_material *m)
+{
+    const scene_texture *list[SCENE_MATERIAL_TEXTURES];
+    bool used[2] = { false, false };
+    scene_material_textures(m, list);
+    for (int i = 0; i < SCENE_MATERIAL_TEXTURES; ++i)
+        if (has(list[i]))
+            used[list[i]->texcoord == 1] = true;
+    return used[0] + used[1];
 }
 
 static void warn_of_textures(const povray *p, int material)
@@ -107,6 +121,8 @@ static void warn_of_textures(const povray *p, int material)
         { shown && tinted(m->base_color), "the hue of baseColorFactor is left out beside baseColorTexture" },
         { shown && (base->wrap_s != SCENE_WRAP_REPEAT || base->wrap_t != SCENE_WRAP_REPEAT),
           "baseColorTexture is repeated; its sampler asks for another wrap mode" },
+        { texcoord_sets(m) > 1, "its textures use several sets of TEXCOORD; POV-Ray's mesh has the one of "
+                                "baseColorTexture" },
         { has(&m->metallic_roughness_texture), "metallicRoughnessTexture is left out, its mean is taken" },
         { has(&m->normal_texture), "normalTexture is left out: POV-Ray has no normal maps" },
         { has(&m->occlusion_texture), "occlusionTexture is left out" },
@@ -135,13 +151,8 @@ void material_warn(const povray *p, int material)
         { flakes && g->layer == SCENE_LAYER_CLEARCOAT, "flakes in the clear coat are left out: the coat is smooth" },
         { m->coat_glint.present && m->coat_glint.factor > 0.0F,
           "flakes in the clear coat are left out: the coat is smooth" },
-        { flakes && (g->color_variation > 0.0F || g->color_count > 0),
-          "glintColorVariation and glintColors are left out: all flakes have one colour" },
         { flakes && g->density_variation > 0.0F, "glintDensityVariation is left out: the density is even" },
         { flakes && g->structure == SCENE_STRUCTURE_EXAMPLE, "glintStructure \"example\" is exported as \"flakes\"" },
-        { flakes && g->layer == SCENE_LAYER_BASE && g->distribution == GLINT_DISTRIBUTION_GGX &&
-              g->facet_roughness > 0.5F,
-          "flakes reflect with a Beckmann lobe: POV-Ray's highlight has no GGX" },
     };
     warn_list(p, material, list, sizeof list / sizeof list[0]);
     warn_of_textures(p, material);
@@ -187,6 +198,16 @@ static void write_flakes(const povray *p, const material_look *look, text *out)
     declare(out, "Share", (double)look->surface.discreteness);
     if (g->elongation > 1.0F)
         declare(out, "Aspect", (double)g->elongation);
+    if (g->color_variation > 0.0F)
+        declare(out, "Hues", (double)g->color_variation);
+    if (g->color_count == 0)
+        return;
+    text_print(out, "  #declare Glint_Tints = array[%u] {", g->color_count);
+    for (uint32_t i = 0; i < g->color_count; ++i) {
+        text_print(out, i ? ", " : " ");
+        text_color(out, g->colors[i]);
+    }
+    text_print(out, " }\n");
 }
 
 static void write_parameters(const povray *p, int material, const material_look *look, text *out)

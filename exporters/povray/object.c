@@ -7,6 +7,8 @@
 
 /* Analytic reflection has no mirror images; below this roughness one would miss them. Taste. */
 #define ANALYTIC_ALPHA 0.1F
+/* The lobe of such a flake is wide enough to have a shape. Taste. */
+#define WIDE_FACET 0.3F
 /* Cells of the hash of glint.inc, to either side. */
 #define CELLS 4.6e7
 
@@ -98,11 +100,20 @@ typedef struct choice {
     text mesh; /* of the mesh form */
 } choice;
 
+/* Objects are nodes of the file with one of the primitives of their mesh. */
+static void note_object(const povray *p, const scene_instance *i, const char *what)
+{
+    char name[NAME_LENGTH], place[2 * NAME_LENGTH];
+    name_comment(name, i->name);
+    snprintf(place, sizeof place, "nodes/%d (\"%s\")", i->node, name);
+    notes_add(p->notes, place, what);
+}
+
 static void warn(const povray *p, const scene_instance *i, const char *asked, const char *why)
 {
-    char name[NAME_LENGTH];
-    name_comment(name, i->name);
-    report_warning(p->report, "%s: object \"%s\": --form %s does not fit: %s", p->options->input, name, asked, why);
+    char what[256];
+    snprintf(what, sizeof what, "--form %s does not fit: %s", asked, why);
+    note_object(p, i, what);
 }
 
 static bool can_be_exact(const povray *p, const scene_instance *i, const material_look *look, flat *out)
@@ -128,6 +139,10 @@ static bool make_flake_mesh(const povray *p, const scene_instance *i, const mate
 {
     double count;
     char why[128];
+    if (look->base_image != SCENE_NONE) {
+        warn(p, i, "mesh", "baseColorTexture has no place on flakes; it is exported as portable");
+        return false;
+    }
     if (flake_mesh_write(p, i, seed_of(i, look), &c->mesh, &count))
         return true;
     snprintf(why, sizeof why, "%.3g flakes are too many, at most 250000; it is exported as portable", count);
@@ -255,21 +270,21 @@ static void warn_of_mesh(const povray *p, int index, const material_look *look)
     char name[NAME_LENGTH];
     name_comment(name, mesh->name);
     if (mesh->color)
-        report_warning(p->report, "%s: %s: vertex colours are left out", p->options->input, name);
+        notes_add(p->notes, name, "vertex colours are left out");
     if (look->base_image != SCENE_NONE && !mesh->texcoord[look->material->base_color_texture.texcoord])
-        report_warning(p->report, "%s: %s: no TEXCOORD_%d, which its baseColorTexture uses", p->options->input, name,
-                       look->material->base_color_texture.texcoord);
+        notes_add(p->notes, name, "has not the TEXCOORD that its baseColorTexture uses");
 }
 
 static void warn_of_portable(const povray *p, const scene_instance *i, const material_look *look)
 {
-    char name[NAME_LENGTH];
-    name_comment(name, i->name);
-    if (look->material->glint.elongation > 1.0F || look->anisotropic)
-        report_warning(p->report,
-                       "%s: object \"%s\": the portable form has round tilts and square flakes; anisotropy "
-                       "and glintElongation are left out",
-                       p->options->input, name);
+    const scene_glint *g = &look->material->glint;
+    if (g->elongation > 1.0F || look->anisotropic)
+        note_object(p, i,
+                    "the portable form has round tilts and square flakes; anisotropy and glintElongation are left out");
+    if (g->distribution == GLINT_DISTRIBUTION_GGX && g->facet_roughness > WIDE_FACET)
+        note_object(p, i, "the portable form has flakes with a Beckmann lobe in the place of GGX");
+    if (g->color_variation > 0.0F || g->color_count > 0)
+        note_object(p, i, "the portable form tints cubes of a flake's size, not flakes");
 }
 
 static void write_instance(povray *p, int index, bool *mesh_written)
@@ -312,6 +327,6 @@ void objects_write(povray *p)
     for (int i = 0; i < s->instance_count; ++i)
         write_instance(p, i, written);
     if (s->instance_count == 0)
-        report_warning(p->report, "%s: there is nothing to see: the scene has no objects", p->options->input);
+        notes_add(p->notes, NULL, "there is nothing to see: the scene has no objects");
     free(written);
 }

@@ -9,6 +9,7 @@
 
 #include "exporters/povray/folder.h"
 #include "exporters/povray/linear.h"
+#include "exporters/povray/notes.h"
 #include "exporters/povray/text.h"
 #include "glint_export.h"
 #include "io/image.h"
@@ -25,8 +26,9 @@ typedef struct povray {
     const scene *scene;
     const glint_export_povray_options *options;
     const textures *textures; /* for the means of those that POV-Ray cannot show */
-    report *report;
-    char file[NAME_LENGTH]; /* what the files are called, without their endings */
+    report *report;           /* of errors */
+    notes *notes;             /* of what is left out or added */
+    char file[NAME_LENGTH];   /* what the files are called, without their endings */
     double unit;
     vec centre; /* of the scene, metres */
     double radius;

@@ -11,6 +11,7 @@ typedef struct render_values {
     assignments materials;
     int64_t size[2], tile[4]; /* tile: x, y, width, height; width 0: the whole picture */
     int64_t spp, threads, seed, bounces;
+    double accuracy;    /* NAN: not given */
     int model;          /* see arguments_model_choice */
     int facets;         /* a preview_facets */
     double exposure_ev; /* NAN: not given */
@@ -24,9 +25,22 @@ typedef struct render_values {
 typedef struct render_record {
     const char *file;
     const render_values *values;
+    const scene *scene; /* while it is rendered, and so is the report */
+    report *report;
+    document *plan; /* with --json; NULL: nothing was planned */
     double read_s, write_s, total_s;
     preview_statistics statistics;
 } render_record;
+
+/* ---- render_scene.c: what glint plan does as well ---- */
+
+/* All options of glint render; behind the first few, which are about its output, those of glint plan. */
+enum { RENDER_RULE_COUNT = 21, RENDER_OWN_RULES = 5 };
+extern const argument_rule render_rules[RENDER_RULE_COUNT];
+render_values render_defaults(void);
+double render_accuracy(const render_values *v);
+
+bool render_read_scene(const char *path, const render_values *v, scene *s, report *r);
 
 /* ---- render_light.c: light that the command line brings ---- */
 
@@ -44,6 +58,17 @@ const char *render_light_set(int index);
 /* Reads the environment, replaces the lights of the scene, and points options to both. The camera is in the options. */
 bool render_light_begin(const render_values *v, scene *s, render_light *light, preview_options *options, report *r);
 void render_light_end(render_light *light);
+
+/* Turns the command line into the renderer's options, which then point to the scene and to *light; render_light_end
+ * frees that, whether this succeeds or not. */
+bool render_options(const render_values *v, scene *s, render_light *light, preview_options *options, report *r);
+
+/* ---- plan.c ---- */
+
+/* All decisions and what they come to. */
+document *plan_document(const glint_plan *plan, const scene *s);
+/* Warns where the plan does not meet its budget. */
+void plan_warn(const glint_plan *plan, double budget, report *r);
 
 /* ---- render_record.c ---- */
 

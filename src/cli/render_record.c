@@ -50,7 +50,8 @@ static bool write_exr(const render_record *record, const image *picture, report 
     snprintf(spp, sizeof spp, "%" PRId64, v->spp);
     snprintf(seed, sizeof seed, "%" PRId64, v->seed);
     snprintf(bounces, sizeof bounces, "%" PRId64, v->bounces);
-    char rotation[32], exposure[32];
+    char rotation[32], exposure[32], accuracy[32];
+    snprintf(accuracy, sizeof accuracy, "%.9g", render_accuracy(v));
     snprintf(rotation, sizeof rotation, "%.9g", number_or(v->environment_rotation_deg, 0.0));
     snprintf(exposure, sizeof exposure, "%.9g", number_or(v->environment_exposure_ev, 0.0));
     const image_text metadata[] = {
@@ -60,6 +61,7 @@ static bool write_exr(const render_record *record, const image *picture, report 
         { "glint:size", size },
         { "glint:tile", tile },
         { "glint:spp", spp },
+        { "glint:accuracy", accuracy },
         { "glint:seed", seed },
         { "glint:bounces", bounces },
         { "glint:camera", v->camera ? v->camera : "" },
@@ -116,6 +118,7 @@ int render_print_document(const render_record *record, document *warnings)
     if (v->tile[2] > 0)
         document_set(d, "tile", integers(v->tile, 4));
     document_set_integer(d, "spp", (uint64_t)v->spp);
+    document_set_number(d, "accuracy", render_accuracy(v));
     document_set_text(d, "model", arguments_model_choice(v->model));
     document_set_text(d, "facets", render_facets_name(v->facets));
     document_set_integer(d, "seed", (uint64_t)v->seed);
@@ -134,6 +137,8 @@ int render_print_document(const render_record *record, document *warnings)
     document_set_integer(evals, "glint", s->glint_evals);
     document_set_integer(evals, "smooth", s->smooth_evals);
     document_set(d, "evals", evals);
+    if (record->plan)
+        document_set(d, "plan", record->plan);
     document_set_integer(d, "peak_memory_bytes", peak_memory_bytes());
     document_set(d, "warnings", warnings);
     return print_document(d);

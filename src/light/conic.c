@@ -28,6 +28,15 @@ static double dual_form(const dual *k, vec3d u, vec3d v)
            vec3d_dot(k->c, u) * vec3d_dot(k->c, v);
 }
 
+/* K(u, u) K(v, v) - K(u, v)^2, which would lose a long ellipse's digits, by squares of areas (Cauchy and Binet). */
+static double dual_minor(const dual *k, vec3d u, vec3d v)
+{
+    const double au = vec3d_dot(k->a, u), av = vec3d_dot(k->a, v), bu = vec3d_dot(k->b, u), bv = vec3d_dot(k->b, v);
+    const double cu = vec3d_dot(k->c, u), cv = vec3d_dot(k->c, v);
+    const double ab = au * bv - av * bu, ac = au * cv - av * cu, bc = bu * cv - bv * cu;
+    return ab * ab - ac * ac - bc * bc;
+}
+
 /* The negative eigenvalue. Newton's method from below it, where the characteristic polynomial is monotone: the largest
  * |eigenvalue| that c alone can make is |c|^2. */
 static double negative_eigenvalue(const dual *k)
@@ -44,10 +53,11 @@ static double negative_eigenvalue(const dual *k)
         const double slope = (3.0 * e - 2.0 * trace) * e + minors;
         if (!(value < 0.0) || !(slope > 0.0))
             break;
-        const double next = e - value / slope;
-        if (!(next > e))
+        const double step = -value / slope;
+        e += step;
+        /* The root is simple, and a step squares what is left. */
+        if (!(step > -1e-8 * e))
             break;
-        e = next;
     }
     return e;
 }
@@ -63,14 +73,22 @@ static vec3d kernel_of(vec3d x, vec3d y, vec3d z)
     return vec3d_normalize(n[best]);
 }
 
-int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
+/* The cone does not change when all three are scaled. 0: they are no numbers to speak of. */
+static int dual_of(vec3d center, vec3d half_x, vec3d half_y, dual *k)
 {
-    /* The cone does not change when all three are scaled. */
     const double size2 = vec3d_dot(center, center) + vec3d_dot(half_x, half_x) + vec3d_dot(half_y, half_y);
     if (!(size2 > 1e-60 && size2 < 1e60))
         return 0;
     const double scale = 1.0 / sqrt(size2);
-    const dual k = { vec3d_scale(half_x, scale), vec3d_scale(half_y, scale), vec3d_scale(center, scale) };
+    *k = (dual){ vec3d_scale(half_x, scale), vec3d_scale(half_y, scale), vec3d_scale(center, scale) };
+    return 1;
+}
+
+int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
+{
+    dual k;
+    if (!dual_of(center, half_x, half_y, &k))
+        return 0;
     const double negative = negative_eigenvalue(&k);
     if (!(negative < -1e-30))
         return 0;
@@ -96,7 +114,7 @@ int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
         sine = (uv < 0.0 ? -1.0 : 1.0) * sqrt(real_max(0.0, 0.5 * (1.0 - c2)));
     }
     const double a2 = (half_sum + radius) / -negative;
-    const double b2 = half_sum + radius > 0.0 ? (uu * vv - uv * uv) / (half_sum + radius) / -negative : 0.0;
+    const double b2 = half_sum + radius > 0.0 ? dual_minor(&k, u, v) / (half_sum + radius) / -negative : 0.0;
     if (!(b2 > LEAST_SIZE && a2 < 1e30))
         return 0;
     *c = (conic){ .axis_x = vec3d_mad(vec3d_scale(u, cosine), v, sine), .axis_z = axis, .a = sqrt(a2), .b = sqrt(b2) };
@@ -166,13 +184,37 @@ vec3d conic_moment(const conic *c)
     const double z = c->a * c->b * turn / (root_a * root_b);
     const vec3d arc =
         vec3d_add(vec3d_mad(vec3d_scale(c->axis_x, 0.5 * x), c->axis_y, 0.5 * y), vec3d_scale(c->axis_z, 0.5 * z));
-    /* The line along the horizon, from the last node to the first: its angle, upright. */
-    vec3d end[2];
-    for (int i = 0; i < 2; i++) {
-        const double *n = c->node[i * CONIC_ARCS];
-        end[i] = vec3d_add(c->axis_z, vec3d_mad(vec3d_scale(c->axis_x, c->a * n[0]), c->axis_y, c->b * n[1]));
-    }
-    const double cross = end[1].x * end[0].y - end[1].y * end[0].x, dot = end[1].x * end[0].x + end[1].y * end[0].y;
-    const vec3d line = { 0.0, 0.0, 0.5 * real_atan2(cross, dot) };
+    /* The line along the horizon, from the last node to the first: its angle, upright. From one end and the way to the
+     * other: the product of two directions that are nearly the same would have no digit of a small light. */
+    const double *last = c->node[CONIC_ARCS], *first = c->node[0];
+    const vec3d from =
+        vec3d_add(c->axis_z, vec3d_mad(vec3d_scale(c->axis_x, c->a * last[0]), c->axis_y, c->b * last[1]));
+    const vec3d way =
+        vec3d_mad(vec3d_scale(c->axis_x, c->a * (first[0] - last[0])), c->axis_y, c->b * (first[1] - last[1]));
+    const double cross = from.x * way.y - from.y * way.x, along = from.x * way.x + from.y * way.y;
+    const vec3d line = { 0.0, 0.0, 0.5 * real_atan2(cross, from.x * from.x + from.y * from.y + along) };
     return vec3d_add(arc, line);
+}
+
+vec3d conic_whole_moment(vec3d center, vec3d half_x, vec3d half_y)
+{
+    /* Eigenvalues -m, p and q of K: the moment is pi sqrt(p q / ((m + p) (m + q))) times the axis, whose products z z,
+     * z x and z y are minors of K + m over (m + p) (m + q). p q = volume^2 / m. */
+    const vec3d nothing = { 0.0, 0.0, 0.0 };
+    dual k;
+    if (!dual_of(center, half_x, half_y, &k))
+        return nothing;
+    const double m = -negative_eigenvalue(&k);
+    if (!(m > 1e-30))
+        return nothing;
+    vec3d x = dual_row(&k, k.a.x, k.b.x, k.c.x), y = dual_row(&k, k.a.y, k.b.y, k.c.y);
+    const double zz = k.a.z * k.a.z + k.b.z * k.b.z - k.c.z * k.c.z;
+    const double volume = vec3d_dot(k.a, vec3d_cross(k.b, k.c)), both = volume * volume / m;
+    const double sums = m * (x.x + y.y + zz + 2.0 * m) + both;
+    x.x += m;
+    y.y += m;
+    const vec3d minors = vec3d_cross(x, y);
+    if (!(sums > 0.0) || !(minors.z > 0.0))
+        return nothing;
+    return vec3d_scale(minors, REAL_PI * sqrt(both / minors.z) / sums);
 }

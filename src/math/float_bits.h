@@ -16,6 +16,15 @@ static inline uint32_t bits_of_float(float x)
     return u;
 }
 
+/* A float from outside as the double that a message prints: converting a signalling NaN would raise an exception. */
+static inline double printable(float x)
+{
+    const uint32_t bits = bits_of_float(x), quiet = (bits & 0x7fffffffU) > 0x7f800000U ? bits | 0x00400000U : bits;
+    float y;
+    memcpy(&y, &quiet, sizeof(y));
+    return (double)y;
+}
+
 /* |x| < limit; false for a NaN. */
 static inline int is_below(float x, float limit)
 {

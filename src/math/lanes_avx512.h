@@ -31,6 +31,11 @@ static inline int any(vmask m)
     return m != 0;
 }
 
+static inline vmask mask_none(void)
+{
+    return 0;
+}
+
 static inline vint mask_bits(vmask m)
 {
     return (vint)_mm512_movm_epi32(m);

@@ -24,6 +24,11 @@ static inline vmask equal_i(vint a, vint b)
     return a == b;
 }
 
+static inline vmask mask_none(void)
+{
+    return (vmask){ 0 };
+}
+
 static inline vint mask_bits(vmask m)
 {
     return m;

@@ -45,6 +45,11 @@ static inline int any(vmask m)
     return m != 0;
 }
 
+static inline vmask mask_none(void)
+{
+    return 0;
+}
+
 static inline vint mask_bits(vmask m)
 {
     return m;

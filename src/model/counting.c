@@ -6,6 +6,7 @@
 #include "model/counting_kernel.h"
 
 #define GLINT_LANES 1
+#include "math/fade.h"
 #include "math/hash.h"
 #include "model/area.h"
 #include "model/lobe.h"
@@ -13,9 +14,13 @@
 
 enum { CHUNK = 64 }; /* points gathered for the kernel at a time; a multiple of every width */
 
+/* Evaluates at most CHUNK queries. */
+typedef void eval_chunk(const model_query *q, size_t count, counting_width width, glint_value *value);
+
 /* What setup makes. */
 typedef struct counting_baked {
-    counting_width width;
+    counting_width wide, narrow; /* for many points, and for one */
+    eval_chunk *eval;
     int is_tinted;
     tint_palette palette;
 } counting_baked;
@@ -25,7 +30,7 @@ typedef struct gathered {
     double u[CHUNK], v[CHUNK];
     float dudx[CHUNK], dudy[CHUNK], dvdx[CHUNK], dvdy[CHUNK], density[CHUNK], hx[CHUNK], hy[CHUNK], cap[CHUNK],
         p[CHUNK];
-    uint32_t seed[CHUNK];
+    uint32_t seed[CHUNK], draw[CHUNK];
 } gathered;
 
 counting_width counting_widest(size_t max_lanes)
@@ -34,17 +39,26 @@ counting_width counting_widest(size_t max_lanes)
     __builtin_cpu_init();
     if (max_lanes >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        return (counting_width){ 16, counting_kernel_16, counting_tinted_16 };
+        return (counting_width){ 16, counting_kernel_16, counting_tinted_16, counting_drawn_16 };
     if (max_lanes >= 8 && __builtin_cpu_supports("avx2"))
-        return (counting_width){ 8, counting_kernel_8, counting_tinted_8 };
+        return (counting_width){ 8, counting_kernel_8, counting_tinted_8, counting_drawn_8 };
     if (max_lanes >= 4 && __builtin_cpu_supports("sse4.1"))
-        return (counting_width){ 4, counting_kernel_4, counting_tinted_4 };
+        return (counting_width){ 4, counting_kernel_4, counting_tinted_4, counting_drawn_4 };
 #elif defined(__aarch64__)
     if (max_lanes >= 4)
-        return (counting_width){ 4, counting_kernel_4, counting_tinted_4 };
+        return (counting_width){ 4, counting_kernel_4, counting_tinted_4, counting_drawn_4 };
 #endif
     (void)max_lanes;
-    return (counting_width){ 1, counting_kernel_1, counting_tinted_1 };
+    return (counting_width){ 1, counting_kernel_1, counting_tinted_1, counting_drawn_1 };
+}
+
+counting_width counting_narrowest(void)
+{
+#if defined(__x86_64__) || defined(__aarch64__)
+    if (counting_widest(4).lanes == 4)
+        return (counting_width){ 1, counting_alone, counting_tinted_alone, counting_drawn_1 };
+#endif
+    return counting_widest(1);
 }
 
 /* What a point makes of its light: the smooth reflection, and which facets are lit. */
@@ -97,6 +111,7 @@ static void gather(const model_query *q, const lit *lobe, gathered *g, size_t i)
     g->dvdy[i] = f.dvdy;
     g->density[i] = q->surface->facets_per_m2;
     g->seed[i] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
+    g->draw[i] = f.draw;
     g->hx[i] = lobe->h.x;
     g->hy[i] = lobe->h.y;
     g->cap[i] = lobe->cap;
@@ -109,94 +124,172 @@ static counting_points points_of(const gathered *g)
                               g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
 }
 
-static void combine(const model_query *q, const lit *lobe, float factor, glint_value *value)
+/* g: the share of the facets' light that is counted. */
+static void combine(const lit *lobe, float g, float factor, glint_value *value)
 {
-    const float g = q->surface->discreteness;
     for (int c = 0; c < 3; c++) {
         value->smooth[c] = lobe->specular[c] + lobe->diffuse[c];
         value->rgb[c] = lobe->specular[c] * ((1.0F - g) + g * factor) + lobe->diffuse[c];
     }
 }
 
-/* The discrete queries of a chunk, index[i] the query of entry i, for facets of different colours. */
-static void eval_tinted(const model_query *q, const lit *lobe, const gathered *g, const size_t *index, size_t count,
-                        size_t padded, counting_width width, glint_value *value)
+/* Those queries of a chunk for which facets are counted in the same way. */
+typedef struct counted {
+    gathered points;
+    size_t index[CHUNK], count; /* index[i]: the query of entry i */
+    float share[CHUNK];         /* see combine */
+} counted;
+
+static void add(counted *c, const model_query *q, const lit *lobe, size_t index, float share)
+{
+    gather(&q[index], &lobe[index], &c->points, c->count);
+    c->index[c->count] = index;
+    c->share[c->count++] = share;
+}
+
+/* The count rounded up to the width, the last entry repeated. */
+static size_t pad(counted *c, const model_query *q, const lit *lobe, size_t lanes)
+{
+    const size_t last = c->index[c->count - 1];
+    size_t padded = c->count;
+    for (; padded % lanes != 0; padded++)
+        gather(&q[last], &lobe[last], &c->points, padded);
+    return padded;
+}
+
+/* For facets of different colours. */
+static void count_tinted(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
     float factor[3][CHUNK], facets[CHUNK];
     float *const factors[3] = { factor[0], factor[1], factor[2] };
-    const counting_points points = points_of(g);
-    width.tinted(&points, padded, &baked->palette, factors, facets);
-    for (size_t i = 0; i < count; i++) {
-        const lit *l = &lobe[index[i]];
-        glint_value *v = &value[index[i]];
-        combine(&q[index[i]], l, 1.0F, v);
-        const float share = q[index[i]].surface->discreteness;
-        for (int c = 0; c < 3; c++)
-            v->rgb[c] = l->specular[c] * ((1.0F - share) + share * factor[c][i]) + l->diffuse[c];
+    const counting_points points = points_of(&c->points);
+    width.tinted(&points, pad(c, q, lobe, width.lanes), &baked->palette, factors, facets);
+    for (size_t i = 0; i < c->count; i++) {
+        const lit *l = &lobe[c->index[i]];
+        glint_value *v = &value[c->index[i]];
+        const float share = c->share[i];
+        combine(l, share, 1.0F, v);
+        for (int k = 0; k < 3; k++)
+            v->rgb[k] = l->specular[k] * ((1.0F - share) + share * factor[k][i]) + l->diffuse[k];
         v->facet_count = facets[i];
-        v->lit_probability = g->p[i];
+        v->lit_probability = c->points.p[i];
     }
 }
 
-/* At most CHUNK queries. */
-static void eval_chunk(const model_query *q, size_t count, counting_width width, glint_value *value)
+static void put(const counted *c, const lit *lobe, const float *factor, const float *facets, glint_value *value)
 {
-    gathered g;
-    lit lobe[CHUNK];
-    size_t index[CHUNK], discrete = 0;
-    for (size_t i = 0; i < count; i++) {
-        light(&q[i], &lobe[i]);
-        value[i] = (glint_value){ 0 };
-        if (is_discrete(&q[i])) {
-            gather(&q[i], &lobe[i], &g, discrete);
-            index[discrete++] = i;
-        } else {
-            combine(&q[i], &lobe[i], 1.0F, &value[i]);
-        }
+    for (size_t i = 0; i < c->count; i++) {
+        glint_value *v = &value[c->index[i]];
+        combine(&lobe[c->index[i]], c->share[i], factor[i], v);
+        v->facet_count = facets[i];
+        v->lit_probability = c->points.p[i];
     }
-    if (discrete == 0)
-        return;
-    size_t padded = discrete;
-    for (; padded % width.lanes != 0; padded++)
-        gather(&q[index[discrete - 1]], &lobe[index[discrete - 1]], &g, padded);
+}
 
+static void count(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
+{
     const counting_baked *baked = q->material->baked;
+    if (c->count == 0)
+        return;
     if (baked->is_tinted) {
-        eval_tinted(q, lobe, &g, index, discrete, padded, width, value);
+        count_tinted(c, q, lobe, width, value);
         return;
     }
     float factor[CHUNK], facets[CHUNK];
-    const counting_points points = points_of(&g);
-    width.kernel(&points, padded, factor, facets);
-    for (size_t i = 0; i < discrete; i++) {
-        combine(&q[index[i]], &lobe[index[i]], factor[i], &value[index[i]]);
-        value[index[i]].facet_count = facets[i];
-        value[index[i]].lit_probability = g.p[i];
+    const counting_points points = points_of(&c->points);
+    width.kernel(&points, pad(c, q, lobe, width.lanes), factor, facets);
+    put(c, lobe, factor, facets, value);
+}
+
+static void eval_all(const model_query *q, size_t number, counting_width width, glint_value *value)
+{
+    lit lobe[CHUNK];
+    counted all;
+    all.count = 0;
+    for (size_t i = 0; i < number; i++) {
+        light(&q[i], &lobe[i]);
+        value[i] = (glint_value){ 0 };
+        if (is_discrete(&q[i]))
+            add(&all, q, lobe, i, q[i].surface->discreteness);
+        else
+            combine(&lobe[i], 1.0F, 1.0F, &value[i]);
     }
+    count(&all, q, lobe, width, value);
+}
+
+/* ---- within what the options allow to leave out ---- */
+
+/* Facets under the footprint, as the kernel counts them. */
+static float facets_under(const model_query *q)
+{
+    const glint_footprint *f = q->footprint;
+    const double area = (double)f->dudx * (double)f->dvdy - (double)f->dudy * (double)f->dvdx;
+    return (float)fabs(area) * q->surface->facets_per_m2;
+}
+
+static void count_drawn(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
+{
+    float factor[CHUNK], facets[CHUNK];
+    if (c->count == 0)
+        return;
+    const counting_points points = points_of(&c->points);
+    width.drawn(&points, c->points.draw, pad(c, q, lobe, width.lanes), factor, facets);
+    put(c, lobe, factor, facets, value);
+}
+
+static void eval_what_shows(const model_query *q, size_t number, counting_width width, glint_value *value)
+{
+    const glint_material_options *o = &q->material->options;
+    const counting_baked *baked = q->material->baked;
+    lit lobe[CHUNK];
+    counted all, drawn;
+    all.count = drawn.count = 0;
+    for (size_t i = 0; i < number; i++) {
+        light(&q[i], &lobe[i]);
+        value[i] = (glint_value){ 0 };
+        const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lobe[i].p;
+        /* Of less light than a float holds nothing is seen. */
+        const float deviation = facets * p > 1e-30F ? 1.0F / sqrtf(facets * p) : facets > 0.0F ? 1e15F : 0.0F;
+        const float share = deviation > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
+        if (!(share > 0.0F)) {
+            combine(&lobe[i], 1.0F, 1.0F, &value[i]);
+            value[i].facet_count = facets;
+            value[i].lit_probability = facets > 0.0F ? p : 0.0F;
+        } else if (3.0F * deviation < o->draw_deviation && !baked->is_tinted) {
+            add(&drawn, q, lobe, i, share * q[i].surface->discreteness);
+        } else {
+            add(&all, q, lobe, i, share * q[i].surface->discreteness);
+        }
+    }
+    count(&all, q, lobe, width, value);
+    count_drawn(&drawn, q, lobe, width, value);
 }
 
 static void counting_eval(const model_query *q, glint_value *value)
 {
-    eval_chunk(q, 1, (counting_width){ 1, counting_kernel_1, counting_tinted_1 }, value);
+    const counting_baked *baked = q->material->baked;
+    baked->eval(q, 1, baked->narrow, value);
 }
 
-static void counting_eval_many(const model_query *q, size_t count, glint_value *value)
+static void counting_eval_many(const model_query *q, size_t number, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
-    for (size_t i = 0; i < count; i += CHUNK)
-        eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, baked->width, value + i);
+    for (size_t i = 0; i < number; i += CHUNK)
+        baked->eval(q + i, number - i < CHUNK ? number - i : CHUNK, baked->wide, value + i);
 }
 
-/* Which width this machine runs, and the palette, are found once, when the material is made. */
+/* Which widths this machine runs, and the palette, are found once, when the material is made. */
 static glint_result counting_setup(struct glint_material *material)
 {
-    const glint_allocator *a = &material->options.allocator;
+    const glint_material_options *o = &material->options;
+    const glint_allocator *a = &o->allocator;
     counting_baked *baked = a->allocate(sizeof(*baked), a->user);
     if (!baked)
         return GLINT_ERROR_MEMORY;
-    *baked =
-        (counting_baked){ counting_widest(16), tint_is_asked(&material->options), tint_palette_of(&material->options) };
+    const int leaves_out = o->smooth_deviation > 0.0F || o->draw_deviation > 0.0F;
+    *baked = (counting_baked){ counting_widest(16), counting_narrowest(), leaves_out ? eval_what_shows : eval_all,
+                               tint_is_asked(o), tint_palette_of(o) };
     material->baked = baked;
     return GLINT_OK;
 }

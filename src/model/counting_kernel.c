@@ -11,6 +11,16 @@
 #include "math/binomial.h"
 #include "model/counting_place.h"
 
+/* The twelve realisations of one grid, each with this many trials, weighted. */
+static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_CELLS],
+                         const vfloat cell_weight[GRID_CELLS], const binomial_chance *chance, vfloat trials)
+{
+    vint uniform[12];
+    vfloat weight[12], dither[GRID_CELLS];
+    angular_draws(lattice, cell, cell_weight, uniform, weight, dither);
+    return binomial_weighted_sum(trials, chance, uniform, weight, dither);
+}
+
 /* b(N, p) / (N p) for one light. */
 static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p)
 {
@@ -18,15 +28,10 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
     const binomial_chance chance = binomial_chance_of(p);
     const vfloat drawn = facets * ANGULAR_SHARE;
     vfloat sum = splat(0.0F);
-    for (int g = 0; g < GRID_COUNT; g++) {
-        vint uniform[12];
-        vfloat weight[12], dither[GRID_CELLS];
-        angular_draws(&lattice, grid, g, uniform, weight, dither);
-        sum = sum + binomial_weighted_sum(drawn * grid->share[g], &chance, uniform, weight, dither);
-    }
-    const vfloat expected = drawn * p;
-    const vmask smooth = less_equal(splat(1.0F), p) | less(expected, splat(LEAST_COUNT));
-    return choose(smooth, splat(1.0F), sum / max_f(expected, splat(LEAST_COUNT)));
+    for (int g = 0; g < GRID_COUNT; g++)
+        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g, &chance,
+                               drawn * grid->share[g]);
+    return counting_factor(sum, drawn, p);
 }
 
 #define JOIN_(a, b) a##b
@@ -46,3 +51,26 @@ void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t c
         store_f(facets + i, pixel.area * pixel.density);
     }
 }
+
+#if GLINT_LANES == GRID_COUNT
+
+void counting_alone(const counting_points *points, size_t count, float *factor, float *facets)
+{
+    for (size_t i = 0; i < count; i++) {
+        counting_copies copies;
+        const counting_points same = counting_copy(points, i, &copies);
+        const counting_pixel pixel = counting_pixel_of(&same, 0);
+        vuint cell[GRID_CELLS];
+        vfloat weight[GRID_CELLS];
+        const vfloat share = counting_grids_apart(&same, &pixel, cell, weight);
+        const angular_lattice lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
+        const vfloat p = load_f(same.p), drawn = pixel.ellipse.area * pixel.density * ANGULAR_SHARE;
+        const binomial_chance chance = binomial_chance_of(p);
+        const vfloat counts = count_grid(&lattice, cell, weight, &chance, drawn * share);
+        const vfloat f = counting_factor(counting_across(counts), drawn, p);
+        factor[i] = pixel.area[0] < LEAST_AREA ? 1.0F : f[0];
+        facets[i] = pixel.area[0] * pixel.density[0];
+    }
+}
+
+#endif

@@ -24,6 +24,8 @@ typedef struct counting_points {
 typedef void counting_kernel(const counting_points *points, size_t count, float *factor, float *facets);
 
 counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;
+/* One point at a time, its four grids in four lanes: for machines that run counting_kernel_4. */
+counting_kernel counting_alone;
 
 /* The same for facets of different colours, with a factor for each channel. A palette of one white colour gives the
  * bits of counting_kernel. */
@@ -31,14 +33,25 @@ typedef void counting_tinted(const counting_points *points, size_t count, const 
                              float *const factor[3], float *facets);
 
 counting_tinted counting_tinted_1, counting_tinted_4, counting_tinted_8, counting_tinted_16;
+counting_tinted counting_tinted_alone;
+
+/* counting_kernel with one realisation for all: draw, uniform in 32 bits, chooses. The mean over draws is the factor of
+ * counting_kernel, but for 2^-24 of chance. */
+typedef void counting_drawn(const counting_points *points, const uint32_t *draw, size_t count, float *factor,
+                            float *facets);
+
+counting_drawn counting_drawn_1, counting_drawn_4, counting_drawn_8, counting_drawn_16;
 
 typedef struct counting_width {
     size_t lanes;
     counting_kernel *kernel;
     counting_tinted *tinted;
+    counting_drawn *drawn;
 } counting_width;
 
 /* The widest kernel that this machine runs, at most max_lanes wide. */
 counting_width counting_widest(size_t max_lanes);
+/* The fastest for one point. */
+counting_width counting_narrowest(void);
 
 #endif

@@ -97,13 +97,84 @@ static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat 
     uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y));
 }
 
-/* The twelve realisations of grid g, which share one (N, p). */
-static inline void angular_draws(const angular_lattice *l, const grid_point *grid, int g, vint uniform[12],
-                                 vfloat weight[12], vfloat dither[GRID_CELLS])
+/* The twelve realisations of one grid, which share one (N, p). */
+static inline void angular_draws(const angular_lattice *l, const vuint cell[GRID_CELLS],
+                                 const vfloat cell_weight[GRID_CELLS], vint uniform[12], vfloat weight[12],
+                                 vfloat dither[GRID_CELLS])
 {
     for (int c = 0; c < GRID_CELLS; c++)
-        angular_corners(l, grid->cell[GRID_CELLS * g + c], grid->weight[GRID_CELLS * g + c], uniform + 4 * c,
-                        weight + 4 * c, dither + c);
+        angular_corners(l, cell[c], cell_weight[c], uniform + 4 * c, weight + 4 * c, dither + c);
 }
+
+/* b(N, p) / (N p) from what all realisations count; drawn: N times the angular share. 1 in the smooth limit. */
+static inline vfloat counting_factor(vfloat sum, vfloat drawn, vfloat p)
+{
+    const vfloat expected = drawn * p;
+    const vmask smooth = less_equal(splat(1.0F), p) | less(expected, splat(LEAST_COUNT));
+    return choose(smooth, splat(1.0F), sum / max_f(expected, splat(LEAST_COUNT)));
+}
+
+/* ---- one point alone: its four grids in four lanes, for a caller without a batch ---- */
+
+#if GLINT_LANES == GRID_COUNT
+
+/* One point, once in every lane. */
+typedef struct counting_copies {
+    double u[GRID_COUNT], v[GRID_COUNT];
+    float dudx[GRID_COUNT], dudy[GRID_COUNT], dvdx[GRID_COUNT], dvdy[GRID_COUNT];
+    float density[GRID_COUNT], hx[GRID_COUNT], hy[GRID_COUNT], cap[GRID_COUNT], p[GRID_COUNT];
+    uint32_t seed[GRID_COUNT];
+} counting_copies;
+
+static inline counting_points counting_copy(const counting_points *from, size_t i, counting_copies *to)
+{
+    for (int g = 0; g < GRID_COUNT; g++) {
+        to->u[g] = from->u[i];
+        to->v[g] = from->v[i];
+        to->dudx[g] = from->dudx[i];
+        to->dudy[g] = from->dudy[i];
+        to->dvdx[g] = from->dvdx[i];
+        to->dvdy[g] = from->dvdy[i];
+        to->density[g] = from->density[i];
+        to->hx[g] = from->hx[i];
+        to->hy[g] = from->hy[i];
+        to->cap[g] = from->cap[i];
+        to->p[g] = from->p[i];
+        to->seed[g] = from->seed[i];
+    }
+    return (counting_points){ to->u,       to->v,    to->dudx, to->dudy, to->dvdx, to->dvdy,
+                              to->density, to->seed, to->hx,   to->hy,   to->cap,  to->p };
+}
+
+/* Grid g in lane g: its cells and their weights. Returns its share. */
+static inline vfloat counting_grids_apart(const counting_points *same, const counting_pixel *pixel,
+                                          vuint cell[GRID_CELLS], vfloat weight[GRID_CELLS])
+{
+    const grid_shape shape = grid_shape_of(&pixel->ellipse);
+    grid_vertex all[GRID_COUNT];
+    vfloat shares[GRID_COUNT];
+    grid_tetrahedron(&shape, all, shares);
+    grid_vertex own = all[0];
+    vfloat share = shares[0];
+    for (int g = 1; g < GRID_COUNT; g++) {
+        own.direction[g] = all[g].direction[g];
+        own.ratio[g] = all[g].ratio[g];
+        own.level[g] = all[g].level[g];
+        share[g] = shares[g][g];
+    }
+    grid_cells(&own, load_d(same->u), load_d(same->v), load_u(same->seed), cell, weight);
+    return share;
+}
+
+/* The sum over the grids, in their order, in every lane. */
+static inline vfloat counting_across(vfloat x)
+{
+    float sum = 0.0F;
+    for (int g = 0; g < GRID_COUNT; g++)
+        sum = sum + x[g];
+    return splat(sum);
+}
+
+#endif
 
 #endif

@@ -39,6 +39,32 @@ static void add_tints(const tint_palette *palette, const vuint *cell, const vint
     }
 }
 
+/* The twelve realisations of one grid: what they count, and what their tints add to it. */
+static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_CELLS],
+                         const vfloat cell_weight[GRID_CELLS], const binomial_chance *chance, vfloat trials,
+                         const tint_palette *palette, vfloat tints[3])
+{
+    vint uniform[12];
+    vfloat weight[12], dither[GRID_CELLS], count[12];
+    angular_draws(lattice, cell, cell_weight, uniform, weight, dither);
+    const vfloat sum =
+        binomial_weighted_draws(trials, chance, uniform, weight, dither, count, (binomial_many){ GRID_CELLS, 4 });
+    const vmask sure = less_equal(splat(1.0F), chance->given);
+    for (int i = 0; i < 12; i++)
+        count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
+    tints[0] = tints[1] = tints[2] = splat(0.0F);
+    add_tints(palette, cell, uniform, weight, count, tints);
+    return sum;
+}
+
+/* The factor of one channel from what all realisations count and what their tints add. */
+static vfloat tinted_factor(vfloat sum, vfloat tints, vfloat drawn, vfloat p)
+{
+    const vfloat expected = drawn * p, bounded = max_f(expected, splat(LEAST_COUNT));
+    const vmask rare = less(expected, splat(LEAST_COUNT)), sure = less_equal(splat(1.0F), p);
+    return choose(rare, splat(1.0F), max_f(choose(sure, splat(1.0F), sum / bounded) + tints / bounded, splat(0.0F)));
+}
+
 /* The factors of the three channels for one light. */
 static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p,
                         const tint_palette *palette, vfloat factor[3])
@@ -46,23 +72,16 @@ static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat
     const angular_lattice lattice = angular_locate(hx, hy, cap);
     const binomial_chance chance = binomial_chance_of(p);
     const vfloat drawn = facets * ANGULAR_SHARE;
-    const vmask sure = less_equal(splat(1.0F), p);
     vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
     for (int g = 0; g < GRID_COUNT; g++) {
-        vint uniform[12];
-        vfloat weight[12], dither[GRID_CELLS], count[12];
-        angular_draws(&lattice, grid, g, uniform, weight, dither);
-        const vfloat trials = drawn * grid->share[g];
-        sum = sum + binomial_weighted_draws(trials, &chance, uniform, weight, dither, count);
-        for (int i = 0; i < 12; i++)
-            count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
-        add_tints(palette, grid->cell + GRID_CELLS * g, uniform, weight, count, tints);
+        vfloat of_grid[3];
+        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g, &chance,
+                               drawn * grid->share[g], palette, of_grid);
+        for (int c = 0; c < 3; c++)
+            tints[c] = tints[c] + of_grid[c];
     }
-    const vfloat expected = drawn * p, bounded = max_f(expected, splat(LEAST_COUNT));
-    const vmask rare = less(expected, splat(LEAST_COUNT));
     for (int c = 0; c < 3; c++)
-        factor[c] = choose(rare, splat(1.0F),
-                           max_f(choose(sure, splat(1.0F), sum / bounded) + tints[c] / bounded, splat(0.0F)));
+        factor[c] = tinted_factor(sum, tints[c], drawn, p);
 }
 
 #define JOIN_(a, b) a##b
@@ -84,3 +103,29 @@ void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t c
         store_f(facets + i, pixel.area * pixel.density);
     }
 }
+
+#if GLINT_LANES == GRID_COUNT
+
+void counting_tinted_alone(const counting_points *points, size_t count, const tint_palette *palette,
+                           float *const factor[3], float *facets)
+{
+    for (size_t i = 0; i < count; i++) {
+        counting_copies copies;
+        const counting_points same = counting_copy(points, i, &copies);
+        const counting_pixel pixel = counting_pixel_of(&same, 0);
+        vuint cell[GRID_CELLS];
+        vfloat weight[GRID_CELLS], tints[3];
+        const vfloat share = counting_grids_apart(&same, &pixel, cell, weight);
+        const angular_lattice lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
+        const vfloat p = load_f(same.p), drawn = pixel.ellipse.area * pixel.density * ANGULAR_SHARE;
+        const binomial_chance chance = binomial_chance_of(p);
+        const vfloat counts = count_grid(&lattice, cell, weight, &chance, drawn * share, palette, tints);
+        for (int c = 0; c < 3; c++) {
+            const vfloat f = tinted_factor(counting_across(counts), counting_across(tints[c]), drawn, p);
+            factor[c][i] = pixel.area[0] < LEAST_AREA ? 1.0F : f[0];
+        }
+        facets[i] = pixel.area[0] * pixel.density[0];
+    }
+}
+
+#endif

@@ -46,7 +46,7 @@ static float lit_part(const facet_sum *s, vec3 m)
     if (!(cosine > 0.0F))
         return 0.0F;
     const float alpha = s->q->material->options.facet_alpha;
-    if (!(alpha > 0.0F)) {
+    if (!(alpha >= LEAST_FACET_ALPHA)) {
         const vec3 mirrored = vec3_add(vec3_scale(m, 2.0F * cosine), vec3_scale(wo, -1.0F));
         const vec3 off = vec3_add(mirrored, vec3_scale(s->q->wi, -1.0F));
         return vec3_dot(off, off) <= s->chord2 ? 1.0F : 0.0F;

@@ -2,13 +2,14 @@
 #include "model/explicit_area.h"
 
 #include "light/sweep.h"
+#include "model/facet_lobe.h"
 #include "model/lobe.h"
 
 /* The part of a facet's reflection that meets the light, in [0, 1]. */
 static float lit_part(const model_query *q, const area_light *light, vec3 h, vec3d mirrored)
 {
     const float alpha = q->material->options.facet_alpha;
-    if (!(alpha > 0.0F))
+    if (!(alpha >= LEAST_FACET_ALPHA))
         return area_contains(light, mirrored) ? 1.0F : 0.0F;
     /* The lobe is one of half vectors, round in slopes around the facet's own normal. */
     const double width = 1.0 / (double)alpha;

@@ -8,12 +8,6 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 
-ndf lobe_ndf(const model_query *q)
-{
-    return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
-                  q->surface->alpha_x, q->surface->alpha_y };
-}
-
 float lobe_facet_reflectance(const model_query *q, int channel, float cosine)
 {
     const glint_material_options *o = &q->material->options;
@@ -53,10 +47,18 @@ float lobe_base_albedo(const model_query *q, int channel, float cos_i)
 
 void lobe_halve(const model_query *q, lobe_value *value)
 {
-    const vec3 sum = vec3_add(q->wo, q->wi);
+    vec3 sum = vec3_add(q->wo, q->wi);
+    float length2 = vec3_dot(sum, sum), unit = 1.0F;
+    /* Opposite along the ground, the sum is so short that its square is no number; its direction is one all the same.
+     */
+    if (!(length2 > 1e-30F)) {
+        sum = vec3_scale(sum, 1e30F);
+        length2 = vec3_dot(sum, sum);
+        unit = 1e-30F;
+    }
     value->h = vec3_normalize(sum);
     /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
-    value->h_dot_wi = clamp01(0.5F * sqrtf(vec3_dot(sum, sum)));
+    value->h_dot_wi = clamp01(0.5F * sqrtf(length2) * unit);
 }
 
 void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *value)

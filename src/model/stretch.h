@@ -10,7 +10,7 @@ static inline glint_footprint stretch_footprint(const glint_footprint *f, float 
 {
     const float stretch = sqrtf(elongation), shrink = 1.0F / stretch;
     return (glint_footprint){ f->u * (double)shrink, f->v * (double)stretch, f->dudx * shrink, f->dudy * shrink,
-                              f->dvdx * stretch,     f->dvdy * stretch,      f->seed };
+                              f->dvdx * stretch,     f->dvdy * stretch,      f->seed,          f->draw };
 }
 
 #endif

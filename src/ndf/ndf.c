@@ -56,10 +56,10 @@ static float ggx_rim(float r, float alpha)
 
 static float beckmann_rim(float r, float alpha)
 {
-    const float x = alpha / r;
-    /* Two Gaussians blur to a third without a rim: it is gone soon. */
-    if (!(x < 10.0F))
+    /* Two Gaussians blur to a third without a rim: it is gone soon. A point has none. */
+    if (!(alpha < 10.0F * r))
         return 0.0F;
+    const float x = alpha / r;
     return 2.50662827F * alpha * r / (1.0F + x * (2.044F + x * (9.896F * x - 0.5F)));
 }
 

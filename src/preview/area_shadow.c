@@ -142,6 +142,8 @@ bool area_light_reaches(const world *w, const hit *h, const shade_point *p, cons
                           .half_y = l->half_y };
     if (!shade_faces_area(p, area))
         return false;
+    if (l->unshadowed)
+        return true;
     double u[2], draw[2];
     sampler_pair(random, dimension, u);
     sampler_pair(random, dimension + PARTNER, draw);

@@ -19,6 +19,8 @@ static bool in_shadow(const world *w, const hit *h, const light *l, const light_
                       uint32_t dimension, ray_counts *counts)
 {
     double u[2];
+    if (l->unshadowed)
+        return false;
     ++counts->shadow_rays;
     trace_ray ray = { .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
     sampler_pair(random, dimension, u);

@@ -20,6 +20,7 @@ typedef struct environment {
     float *patch_sr;     /* of every texel: solid angle of its patch; 0 where a sun was; 4 pi: even all around */
     double *row_edges;   /* height + 1: the share of the light above a row */
     float *column_edges; /* (width + 1) a row: the share of a row's light to the left of a column */
+    int patch_count;
     scene_light suns[ENVIRONMENT_MOST_SUNS];
     int sun_count;
 } environment;

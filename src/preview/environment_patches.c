@@ -108,6 +108,7 @@ void environment_find_patches(environment *e)
             continue;
         }
         const bool even_all_around = a.x1 - a.x0 == whole.x1 && a.y1 - a.y0 == whole.y1;
+        ++e->patch_count;
         fill(e, a, even_all_around ? 4.0 * PREVIEW_PI : solid_angle);
     }
 }

@@ -13,6 +13,8 @@
  */
 #define MOST_LAYERS 64
 #define LEAST_TRANSMITTANCE 1e-4F
+/* Blocks of pixels under counting vary as those under explicit facets within 15 % from 4 x 4 on (docs/truth.md). */
+#define MOST_GLINT_SIDE 4
 /* The largest single-precision number below 1: uniforms must not reach 1. */
 #define BELOW_ONE 0x1.fffffep-1F
 
@@ -24,7 +26,8 @@ enum {
     DIM_DIRECTION,
     DIM_BLEND,
     DIM_LIGHTS,
-    DIM_GLOW = (1 << 20) - 2,
+    DIM_DRAW = (1 << 20) - 3,
+    DIM_GLOW,
     DIM_SURROUNDINGS
 };
 
@@ -39,16 +42,6 @@ static float to_uniform(double u)
     return fminf((float)u, BELOW_ONE);
 }
 
-/* One place on a path: the ray that leads there and what it meets. */
-typedef struct vertex {
-    trace_ray ray;
-    differential step;
-    trace_hit found;
-    hit hit;
-    hit_step hit_step;
-    shade_point point;
-} vertex;
-
 static bool arrive(const world *w, vertex *v, trace_blending blending, const sampler *random, int depth)
 {
     if (!trace_closest(w->trace, &v->ray, blending, &v->found))
@@ -59,6 +52,8 @@ static bool arrive(const world *w, vertex *v, trace_blending blending, const sam
     v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     shade_prepare(&w->shader, &v->hit, &v->hit_step, v3_scale(v->ray.direction, -1.0), to_uniform(choice[0]),
                   &v->point);
+    for (int i = 0; i < v->point.layer_count; ++i)
+        v->point.layers[i].footprint.draw = hash_combine(sampler_bits(random, dimension(depth, DIM_DRAW)), (uint32_t)i);
     return true;
 }
 
@@ -138,7 +133,7 @@ static void describe_first_hit(const world *w, const vertex *v, const direct_fac
     out->normal[2] = (float)n.z;
     memcpy(out->albedo, v->point.albedo, sizeof out->albedo);
     out->depth = (float)camera_depth(w->camera, v->hit.position);
-    out->facet_count = facets->count * (float)(w->footprint_side * w->footprint_side);
+    out->facet_count = facets->count * (float)(w->glint_side * w->glint_side);
     out->lit_probability = facets->lit_probability;
 }
 
@@ -192,23 +187,53 @@ int preview_footprint_side(int spp)
     return side;
 }
 
-/* The ray goes through any point of its stratum, the footprint is the stratum itself. Around the ray's own point the
- * footprints of a pixel's samples would overlap here and leave gaps there, and pixels would vary by up to 40 % more
- * than the facets under them. */
+int preview_glint_side(const preview_options *o)
+{
+    const int side = preview_footprint_side(o->spp);
+    return o->model == GLINT_MODEL_EXPLICIT || side < MOST_GLINT_SIDE ? side : MOST_GLINT_SIDE;
+}
+
+/* The ray goes through any point of its stratum, the footprint is the stratum itself, or the tile that it lies in.
+ * Around the ray's own point the footprints of a pixel's samples would overlap here and leave gaps there, and pixels
+ * would vary by up to 40 % more than the facets under them. */
 static void tile_footprints(const world *w, const double jitter[2], shade_point *point)
 {
     double to_middle[2];
+    const float larger = (float)w->footprint_side / (float)w->glint_side;
     for (int k = 0; k < 2; ++k) {
-        const double at = jitter[k] * w->footprint_side;
+        const double at = jitter[k] * w->glint_side;
         to_middle[k] = floor(at) + 0.5 - at;
     }
     for (int i = 0; i < point->layer_count; ++i) {
         glint_footprint *const f = &point->layers[i].footprint;
         if (!point->layers[i].counts)
             continue;
+        f->dudx *= larger;
+        f->dudy *= larger;
+        f->dvdx *= larger;
+        f->dvdy *= larger;
         f->u += to_middle[0] * (double)f->dudx + to_middle[1] * (double)f->dudy;
         f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
     }
+}
+
+/* A ray through a point of the pixel. */
+static void leave_camera(const world *w, int x, int y, const sampler *pixel, double jitter[2], vertex *v)
+{
+    sampler_pair(pixel, dimension(0, DIM_PIXEL), jitter);
+    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v->ray, &v->step);
+    v->step = differential_scale(&v->step, 1.0 / w->footprint_side);
+}
+
+bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
+{
+    double jitter[2];
+    const sampler pixel = sampler_make(x, y, index, w->seed);
+    leave_camera(w, x, y, &pixel, jitter, v);
+    if (!arrive(w, v, TRACE_BLEND_SOLID, &pixel, 0))
+        return false;
+    tile_footprints(w, jitter, &v->point);
+    return true;
 }
 
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
@@ -216,10 +241,8 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
     *out = (pixel_sample){ 0 };
     double jitter[2];
     const sampler pixel = sampler_make(x, y, index, w->seed);
-    sampler_pair(&pixel, dimension(0, DIM_PIXEL), jitter);
     vertex v;
-    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v.ray, &v.step);
-    v.step = differential_scale(&v.step, 1.0 / w->footprint_side);
+    leave_camera(w, x, y, &pixel, jitter, &v);
 
     float transmittance = 1.0F;
     for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {

@@ -24,6 +24,8 @@ typedef struct world {
     int bounces, spp;
     /* The samples' footprints tile a pixel, side x side of them: see preview_footprint_side. */
     int footprint_side;
+    /* Facets are counted under tiles that may be larger, glint_side x glint_side of them: see preview_glint_side. */
+    int glint_side;
     uint32_t seed;
 } world;
 
@@ -40,6 +42,16 @@ typedef struct pixel_sample {
     float depth; /* metres; 0: nothing was hit */
 } pixel_sample;
 
+/* One place on a path: the ray that leads there and what it meets. */
+typedef struct vertex {
+    trace_ray ray;
+    differential step;
+    trace_hit found;
+    hit hit;
+    hit_step hit_step;
+    shade_point point;
+} vertex;
+
 /* The counters of a thread. */
 typedef struct ray_counts {
     uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
@@ -50,6 +62,15 @@ typedef struct ray_counts {
 /* The largest power of two whose square is at most spp: so many strata along a side of the pixel hold as many samples
  * each. */
 int preview_footprint_side(int spp);
+
+/* Tiles of a pixel under which a model counts: no more than 4 x 4, whatever the number of samples. A model that counts
+ * whole tiles shows other facets under other tiles; so the picture has a limit to which samples bring it, and it is the
+ * same facets at 16 samples and at 1024. The explicit model adds up facets, and its picture is the same under any
+ * tiles. docs/plan.md has what the number does to the statistics of blocks. */
+int preview_glint_side(const preview_options *o);
+
+/* What sample number index of the pixel (x, y) sees first. False: nothing. */
+bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v);
 
 /* Sample number index of the pixel (x, y), which stands for 1/spp of it. */
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts);

@@ -21,8 +21,13 @@ typedef struct materials {
 } materials;
 
 /* model: a glint_model, or PREVIEW_MODEL_AUTO: for each material the one that shows what it asks for, see
- * scene_model_of. Warns of what a material asks for and its model does not render. */
-bool materials_make(const scene *s, int model, preview_facets facets, materials *out, report *r);
+ * scene_model_of. plan: what is left out; NULL: all is as the scene asks, and warnings say what a material asks for and
+ * its model does not render. */
+bool materials_make(const scene *s, int model, preview_facets facets, const glint_plan *plan, materials *out,
+                    report *r);
 void materials_free(materials *m);
+
+/* The model that a layer of a material gets without a plan. */
+glint_model materials_model(const scene *s, int index, scene_glint_layer layer, int model);
 
 #endif

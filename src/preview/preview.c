@@ -38,6 +38,8 @@ bool stage_check_options(const preview_options *o, report *r)
         !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r) ||
         !check_range("facets", (int)o->facets, PREVIEW_FACETS_OWN, PREVIEW_FACETS_POVRAY, r))
         return false;
+    if (!(o->accuracy >= 0.0 && o->accuracy <= 1.0))
+        return report_error(r, "preview: accuracy is %g; expected 0 to 1", o->accuracy);
     if (o->threads < 0)
         return report_error(r, "preview: threads is %d; expected 0 (one a core) or more", o->threads);
     if (o->tile_width == 0)
@@ -113,10 +115,10 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
     if (!textures_open(s, &st->textures, r))
         return false;
     const double loaded = now_s();
-    st->shader = (shader){ s, &st->materials, st->textures };
-    if (!set_environment(st, o, r) || !materials_make(s, o->model, o->facets, &st->materials, r) ||
-        !geometry_make(s, &st->geometry, r) || !trace_build(&st->geometry, opacity_at, st, &st->trace, r) ||
-        !emitters_make(&st->geometry, &st->emitters, r))
+    st->shader = (shader){ s, &st->materials, st->textures, NULL };
+    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
+        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+        !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
@@ -129,6 +131,7 @@ void stage_take_down(stage *st)
     geometry_free(&st->geometry);
     if (st->materials.scene != NULL)
         materials_free(&st->materials);
+    shader_close(&st->shader);
     textures_close(st->textures);
     emitters_free(&st->emitters);
     environment_free(&st->environment);
@@ -153,16 +156,19 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
                             .bounces = o->bounces,
                             .spp = o->spp,
                             .footprint_side = preview_footprint_side(o->spp),
+                            .glint_side = preview_glint_side(o),
                             .seed = o->seed } };
     if (st->emitters.count > 0 && o->bounces > 0)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
-    return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r);
+    return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, v->lights, r));
 }
 
 void view_take_down(view *v)
 {
     free(v->lights);
+    planned_free(&v->planned);
 }
 
 static unsigned default_facet_limit(void)
@@ -218,10 +224,32 @@ bool preview_render(const scene *s, const preview_options *options, image *out, 
     *out = (image){ 0 };
     bool ok = stage_check_options(options, r);
     ok = ok && stage_set_up(&st, s, options, &own, r) && view_set_up(&v, &st, options, r);
+    if (ok && options->planned != NULL)
+        options->planned(v.planned.plan, options->user);
     ok = ok && render(&st, &v.world, options, out, &own, r);
     view_take_down(&v);
     stage_take_down(&st);
     if (statistics != NULL)
         *statistics = own;
+    return ok;
+}
+
+bool preview_plan(const scene *s, const preview_options *options, glint_plan **plan, report *r)
+{
+    preview_statistics unused = { 0 };
+    stage st = { 0 };
+    view v = { 0 };
+    *plan = NULL;
+    bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+              view_set_up(&v, &st, options, r);
+    /* A view that leaves nothing out has not been looked at. */
+    if (ok && v.planned.plan == NULL)
+        ok = planned_make(&v.planned, options, &v.world, v.lights, r);
+    if (ok) {
+        *plan = v.planned.plan;
+        v.planned.plan = NULL;
+    }
+    view_take_down(&v);
+    stage_take_down(&st);
     return ok;
 }

@@ -47,12 +47,17 @@ typedef struct preview_options {
     const preview_sky *sky;    /* NULL: that of the lookdev rig where the scene has no lights, else black */
     bool transparent;          /* camera rays do not see the sky: alpha 0 there */
     const preview_environment *environment; /* in place of any sky; NULL: that of the scene, if it has one */
+    double accuracy; /* [0, 1], the error that a picture may have for speed: relative, root mean square over pixels,
+                        against accuracy 0, which leaves nothing out. docs/plan.md */
+    /* From the calling thread, before the first ray of the picture; plan is NULL for accuracy 0. It dies with the
+     * render. */
+    void (*planned)(const glint_plan *plan, void *user);
 } preview_options;
 
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
         sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, PREVIEW_FACETS_OWN, 0, false, \
-            0, 0, 0, 0, false, 0                                                                                       \
+            0, 0, 0, 0, false, 0, 0.0, 0                                                                               \
     }
 
 typedef struct preview_statistics {
@@ -77,6 +82,10 @@ typedef struct preview_statistics {
  * On failure *out is zeroed. statistics may be NULL. */
 bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,
                     report *r);
+
+/* What a render with these options would leave out, and what it would cost; of accuracy 0: what all of it costs. The
+ * caller destroys it. On failure *plan is NULL. */
+bool preview_plan(const scene *s, const preview_options *options, glint_plan **plan, report *r);
 
 /* ---- many pictures of one scene, and pictures that grow ---- */
 

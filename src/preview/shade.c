@@ -1,5 +1,5 @@
 /* Textures, normal maps and the clear coat of glTF 2.0, brought to calls of libglint. */
-#include "preview/shade.h"
+#include "preview/shade_parts.h"
 
 #include "preview/place.h"
 #include "scene/surface.h"
@@ -116,7 +116,7 @@ static vec3 anisotropy_direction(const lookup *l, const scene_material *m)
     return v3_mad(v3_scale(h->tangent, co * x - si * y), h->bitangent, si * x + co * y);
 }
 
-static void set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
+void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
 {
     const vec3 flat = v3_reject(along, normal);
     layer->z = normal;
@@ -140,7 +140,7 @@ static void add_coat(const lookup *l, const scene_material *m, const scene_texel
     coat->mapped = handles->coat_mapped;
     coat->surface = scene_coat_surface(m, t);
     coat->weight = fminf(t->clearcoat, 1.0F);
-    set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
+    shade_set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
 
     float below[3];
     shade_below_coat(out, NULL, below);
@@ -159,14 +159,14 @@ static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g,
     if (!(v3_dot(u, u) > 0.0))
         return;
     const double side = h->front ? 1.0 : -1.0;
-    set_frame(layer, layer->z, v3_scale(u, side), wo);
+    shade_set_frame(layer, layer->z, v3_scale(u, side), wo);
     if (v3_dot(layer->y, v) * side < 0.0) {
         layer->y = v3_scale(layer->y, -1.0);
         layer->wo[1] = -layer->wo[1];
     }
 }
 
-static void place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out)
+void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out)
 {
     const scene_material *const m = &s->scene->materials[h->mesh->material];
     static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
@@ -185,7 +185,7 @@ static void place_glints(const shader *s, const hit *h, const hit_step *step, fl
     }
 }
 
-void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
+void shade_prepare_any(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
 {
     const scene_material *const m = &s->scene->materials[h->mesh->material];
     const material_layers *const handles = &s->materials->layers[h->mesh->material];
@@ -219,10 +219,10 @@ void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo,
     base->mapped = handles->base_mapped;
     base->surface = scene_base_surface(m, &t);
     base->weight = 1.0F;
-    set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
+    shade_set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
     out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
-    place_glints(s, h, step, choice, wo, out);
+    shade_place_glints(s, h, step, choice, wo, out);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)

@@ -31,10 +31,18 @@ typedef struct shader {
     const scene *scene;
     const materials *materials;
     const textures *textures;
+    struct shade_constant *constants; /* of every material: what it is everywhere, and how a hit is made ready */
 } shader;
 
+/* Finds out, once, what of each material has to be looked up at a hit. */
+bool shader_open(shader *s, report *r);
+void shader_close(shader *s);
+
+typedef void shade_preparer(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice,
+                            shade_point *out);
+
 /* wo: world, unit, to the viewer. choice: uniform in [0, 1), see place_footprint. */
-void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out);
+shade_preparer shade_prepare;
 
 /* Makes every layer as rough as it looks to a ray that stands for a whole cone: what a wide bounce sees of a highlight
  * is its mean, and no spark. slope_variance: of the half vector over the cone. With more samples the cones shrink, and

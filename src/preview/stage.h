@@ -2,7 +2,7 @@
 #ifndef PREVIEW_STAGE_H
 #define PREVIEW_STAGE_H
 
-#include "preview/integrator.h"
+#include "preview/planned.h"
 
 typedef struct stage {
     const scene *scene;
@@ -25,6 +25,7 @@ void stage_take_down(stage *st);
 typedef struct view {
     camera camera;
     light *lights;
+    planned planned; /* where the options leave something out */
     world world;
 } view;
 

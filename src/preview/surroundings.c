@@ -6,8 +6,7 @@
 
 static shade_surroundings surroundings_of(const world *w, const environment_light *from)
 {
-    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr,
-                                 (float)(w->footprint_side * w->footprint_side) };
+    return (shade_surroundings){ from->wi, from->pdf, from->solid_angle_sr, (float)(w->glint_side * w->glint_side) };
 }
 
 static void count_evaluation(const shade_point *p, const glint_value *value, ray_counts *counts)
@@ -89,7 +88,7 @@ static shade_surroundings glow_of(const world *w, const emitter_point *from, vec
     const double cosine = fabs(v3_dot(wi, from->normal));
     const double area_per_steradian = distance * distance / fmax(cosine, 1e-12);
     return (shade_surroundings){ wi, (float)(from->pdf_per_area * area_per_steradian),
-                                 (float)(from->area_m2 / area_per_steradian), (float)w->spp };
+                                 (float)(from->area_m2 / area_per_steradian), (float)(w->glint_side * w->glint_side) };
 }
 
 void add_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,

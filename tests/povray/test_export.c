@@ -171,16 +171,73 @@ static void says_what_is_added_and_what_is_left_out(void **state)
 
     file_write_text("odd.gltf-material.json",
                     "{\"name\":\"odd\",\"alphaMode\":\"BLEND\",\"extensions\":{\"GLINT_materials_glint\":"
-                    "{\"glintFactor\":1,\"glintColorVariation\":0.5,\"glintDensityVariation\":1}}}");
+                    "{\"glintFactor\":1,\"glintDensityVariation\":1}}}");
     o = glint_run(NULL, "export", "povray", "plane.gltf", "-o", "left", SMALL, "--material",
                   "*=./odd.gltf-material.json");
     assert_exit(&o, 0);
     assert_says(o.err, "alphaMode BLEND is left out");
-    assert_says(o.err, "glintColorVariation and glintColors are left out");
     assert_says(o.err, "glintDensityVariation is left out");
     assert_says(o.err, "plane.gltf: materials/0");
     outcome_free(&o);
     assert_renders("left", "plane");
+}
+
+static void what_stands_still_is_said(void **state)
+{
+    (void)state;
+    static const char *const files[][2] = {
+        { "simple_skin/simple_skin.gltf", "/nodes/0: skins stand still" },
+        { "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf", "/targets: morph targets stand still" },
+    };
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", GLINT_TEST_MODELS, files[i][0]);
+        outcome o = glint_run(NULL, "export", "povray", path, "-o", "still", SMALL);
+        assert_exit(&o, 0);
+        assert_says(o.err, files[i][1]);
+        outcome_free(&o);
+    }
+}
+
+static size_t count_of(const char *text, const char *what)
+{
+    size_t count = 0;
+    for (const char *at = strstr(text, what); at; at = strstr(at + 1, what))
+        ++count;
+    return count;
+}
+
+/* A node for each of five materials that lack the same. */
+static void the_same_words_are_one_warning_with_the_first_names(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    fputs("{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3,4]}],\"nodes\":[", file);
+    for (int i = 0; i < 5; ++i)
+        fprintf(file, "%s{\"mesh\":%d}", i ? "," : "", i);
+    fputs("],\"materials\":[", file);
+    for (int i = 0; i < 5; ++i)
+        fprintf(file, "%s{\"name\":\"m%d: x\",\"alphaMode\":\"BLEND\"}", i ? "," : "", i);
+    fputs("],\"meshes\":[", file);
+    for (int i = 0; i < 5; ++i)
+        fprintf(file, "%s{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":%d}]}", i ? "," : "", i);
+    fputs(
+        "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
+        "\"max\":[1,0,1]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+        "\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/\"}]}",
+        file);
+    fclose(file);
+    file_write_text("five.gltf", text);
+    free(text);
+    outcome o = glint_run(NULL, "export", "povray", "five.gltf", "-o", "five", SMALL);
+    assert_exit(&o, 0);
+    assert_int_equal(count_of(o.err, "alphaMode BLEND"), 1);
+    assert_says(o.err,
+                "five.gltf: materials/0 (\"m0: x\"), materials/1 (\"m1: x\"), materials/2 (\"m2: x\") and 2 more: "
+                "alphaMode BLEND is left out");
+    outcome_free(&o);
 }
 
 static void form_that_does_not_fit_is_said_and_replaced(void **state)
@@ -275,6 +332,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(hostile_names_are_names_of_nothing, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(hostile_file_names_make_plain_ones, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(says_what_is_added_and_what_is_left_out, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(what_stands_still_is_said, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(the_same_words_are_one_warning_with_the_first_names, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(form_that_does_not_fit_is_said_and_replaced, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(failure_leaves_nothing_behind, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(files_of_others_render, enter, workplace_leave),

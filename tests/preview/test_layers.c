@@ -115,15 +115,17 @@ static void layers_one_by_one_give_the_numbers_of_the_layered_model(void **state
     materials made;
     textures *images = NULL;
     assert_true(camera_make(&from, 32, 32, &c, &r) &&
-                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, &made, &r) &&
+                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, NULL, &made, &r) &&
                 textures_open(&s, &images, &r));
     traced_open(&t, &s, NULL);
-    const shader with = { &s, &made, images };
+    shader with = { &s, &made, images, NULL };
+    assert_true(shader_open(&with, &r));
     tally sum = { 0, 0 };
     for (int i = 0; i < 32 * 32; ++i)
         compare_at(&with, &t, &c, i % 32, i / 32, &sum);
     assert_true(sum.lit > 300 && sum.same > 0.9 * sum.lit);
     traced_close(&t);
+    shader_close(&with);
     textures_close(images);
     materials_free(&made);
     scene_free(&s);

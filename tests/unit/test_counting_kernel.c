@@ -68,8 +68,130 @@ static void every_width_gives_the_same_bits(void **state)
             assert_memory_equal(factor, reference, sizeof(factor));
             assert_memory_equal(other, facets, sizeof(other));
         }
+        counting_narrowest().kernel(&points, COUNT, factor, other);
+        assert_memory_equal(factor, reference, sizeof(factor));
+        assert_memory_equal(other, facets, sizeof(other));
         for (int i = 0; i < COUNT; i++)
             assert_true(isfinite(reference[i]) && reference[i] >= 0.0F && isfinite(facets[i]) && facets[i] >= 0.0F);
+    }
+}
+
+/* ---- one realisation for all ---- */
+
+/* Facets that are counted: root of det(density J J^T + I / 2). */
+static double counted(int i)
+{
+    const double x = (double)a.dudx[i], y = (double)a.dudy[i], z = (double)a.dvdx[i], w = (double)a.dvdy[i];
+    const double d = (double)a.density[i], uu = d * (x * x + y * y) + 0.5, vv = d * (z * z + w * w) + 0.5;
+    const double uv = d * (x * z + y * w);
+    return sqrt(uu * vv - uv * uv);
+}
+
+static void every_width_draws_the_same_realisation(void **state)
+{
+    (void)state;
+    uint64_t random = 21;
+    static uint32_t draw[COUNT];
+    static float reference[COUNT], facets[COUNT], factor[COUNT], other[COUNT];
+    for (int round = 0; round < 30; round++) {
+        fill(&random);
+        for (int i = 0; i < COUNT; i++)
+            draw[i] = random_bits(&random) % 40 == 0 ? 0xffffffffU : (uint32_t)random_bits(&random);
+        counting_drawn_1(&points, draw, COUNT, reference, facets);
+        for (size_t lanes = 4; lanes <= 16; lanes *= 2) {
+            counting_widest(lanes).drawn(&points, draw, COUNT, factor, other);
+            assert_memory_equal(factor, reference, sizeof(factor));
+            assert_memory_equal(other, facets, sizeof(other));
+        }
+        for (int i = 0; i < COUNT; i++)
+            assert_true(isfinite(reference[i]) && reference[i] >= 0.0F && isfinite(facets[i]) && facets[i] >= 0.0F);
+    }
+}
+
+/* Points of N facets with this p, of which the kernel counts counted(i). */
+static void fill_alike(uint64_t *random, double n, double p)
+{
+    fill(random);
+    for (int i = 0; i < COUNT; i++) {
+        a.u[i] = random_between(random, -1.0, 1.0);
+        a.v[i] = random_between(random, -1.0, 1.0);
+        a.dudx[i] = a.dvdy[i] = (float)random_log_between(random, 1e-5, 1e-1);
+        a.dudy[i] = 0.0F;
+        a.dvdx[i] = a.dudx[i] * (float)random_between(random, 0.0, 3.0);
+        a.density[i] = (float)(n / ((double)a.dudx[i] * (double)a.dvdy[i]));
+        a.p[i] = (float)p;
+    }
+}
+
+/* Evenly spaced draws hit each of the 48 realisations in proportion to its weight, to within one draw: their mean is
+ * nearer to the whole sum than that of as many random draws would be, at every kind of point, and its error has no
+ * sign. */
+static void mean_over_draws_is_the_whole_sum(void **state)
+{
+    (void)state;
+    enum { DRAWS = 2048 };
+    static const double n[] = { 0.3, 10.0, 1e3, 1e5 }, p[] = { 1e-3, 0.05, 0.6 };
+    static float full[COUNT], facets[COUNT], factor[COUNT];
+    static double sum[COUNT];
+    static uint32_t draw[COUNT];
+    const counting_width width = counting_widest(16);
+    uint64_t random = 22;
+    for (size_t k = 0; k < 12; k++) {
+        moments off = { 0 };
+        double one = 0.0, all = 0.0; /* mean squares of the error of one draw, and of the mean of all */
+        fill_alike(&random, n[k / 3], p[k % 3]);
+        width.kernel(&points, COUNT, full, facets);
+        memset(sum, 0, sizeof(sum));
+        for (uint32_t d = 0; d < DRAWS; d++) {
+            for (int i = 0; i < COUNT; i++)
+                draw[i] = d * (uint32_t)(0x100000000U / DRAWS) + (uint32_t)i * 7U;
+            width.drawn(&points, draw, COUNT, factor, facets);
+            for (int i = 0; i < COUNT; i++) {
+                const double e = (double)factor[i] - (double)full[i];
+                sum[i] += (double)factor[i] / DRAWS;
+                one += e * e / ((double)DRAWS * COUNT);
+            }
+        }
+        for (int i = 0; i < COUNT; i++) {
+            moments_add(&off, sum[i] - (double)full[i]);
+            all += (sum[i] - (double)full[i]) * (sum[i] - (double)full[i]) / COUNT;
+        }
+        const double sigmas = off.mean / moments_standard_error(&off);
+        printf("N %g p %g: mean over draws less the sum %.2e, %.1f sigma; error over that of random draws %.3f\n",
+               n[k / 3], p[k % 3], off.mean, sigmas, sqrt(all * DRAWS / one));
+        assert_true(fabs(sigmas) < 4.5 || fabs(off.mean) < 1e-5);
+        assert_true(all < one / DRAWS);
+    }
+}
+
+/* A count of N_g p has the variance 9/4 (1 - p) / (N share p), over four grids 9 (1 - p) / (N p); a fraction of one
+ * trial has 1 - f p in place of 1 - p. What the sum of all varies by, at most half of 1 / N p, is no part of it. Where
+ * a single grid has all the share 9/4 of the 9 are left, less that half. */
+static void drawing_varies_as_its_bound_says(void **state)
+{
+    (void)state;
+    static const double n[] = { 10.0, 30.0, 1e4 }, p[] = { 1e-2, 0.1 };
+    static float full[COUNT], facets[COUNT], factor[COUNT];
+    static uint32_t draw[COUNT];
+    uint64_t random = 23;
+    for (size_t k = 0; k < 6; k++) {
+        moments noise = { 0 }, inverse = { 0 };
+        for (int round = 0; round < 40; round++) {
+            fill_alike(&random, n[k / 2], p[k % 2]);
+            for (int i = 0; i < COUNT; i++)
+                draw[i] = (uint32_t)random_bits(&random);
+            counting_widest(16).kernel(&points, COUNT, full, facets);
+            counting_widest(16).drawn(&points, draw, COUNT, factor, facets);
+            for (int i = 0; i < COUNT; i++) {
+                moments_add(&noise, (double)factor[i] - (double)full[i]);
+                moments_add(&inverse, 1.0 / counted(i));
+            }
+        }
+        const double bound = 9.0 * inverse.mean / p[k % 2], ratio = moments_variance(&noise) / bound;
+        printf("N %g p %g: variance of drawing over 9 / N p: %.3f\n", n[k / 2], p[k % 2], ratio);
+        /* 1.6e5 samples of a law whose kurtosis is about 36 / N p. */
+        const double margin = 4.0 * sqrt((2.0 + 36.0 / (n[k / 2] * p[k % 2])) / noise.count);
+        assert_true(ratio < 1.0 + margin && ratio > (2.25 - 0.5) / 9.0 - margin);
     }
 }
 
@@ -102,6 +224,9 @@ static void every_width_gives_the_same_tints(void **state)
             assert_memory_equal(factor, reference, sizeof(factor));
             assert_memory_equal(other, facets, sizeof(other));
         }
+        counting_narrowest().tinted(&points, COUNT, &palette, to_factor, other);
+        assert_memory_equal(factor, reference, sizeof(factor));
+        assert_memory_equal(other, facets, sizeof(other));
         for (int i = 0; i < 3 * COUNT; i++)
             assert_true(isfinite(reference[i % 3][i / 3]) && reference[i % 3][i / 3] >= 0.0F);
     }
@@ -188,15 +313,6 @@ static void colors_pop_no_more_than_counts(void **state)
 }
 
 /* ---- mean and variance ---- */
-
-/* Facets that are counted: root of det(density J J^T + I / 2). */
-static double counted(int i)
-{
-    const double x = (double)a.dudx[i], y = (double)a.dudy[i], z = (double)a.dvdx[i], w = (double)a.dvdy[i];
-    const double d = (double)a.density[i], uu = d * (x * x + y * y) + 0.5, vv = d * (z * z + w * w) + 0.5;
-    const double uv = d * (x * z + y * w);
-    return sqrt(uu * vv - uv * uv);
-}
 
 /* E factor = 1 and Var = 1/2 (1 - p) / (N' p): 9/4 from the facets that are drawn, 1/2 * 4/9 from the blending
  * (sum of squares of barycentric and bilinear weights, in the mean over the cell). N' = counted facets. */
@@ -361,6 +477,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_width_gives_the_same_bits),
+        cmocka_unit_test(every_width_draws_the_same_realisation),
+        cmocka_unit_test(mean_over_draws_is_the_whole_sum),
+        cmocka_unit_test(drawing_varies_as_its_bound_says),
         cmocka_unit_test(every_width_gives_the_same_tints),
         cmocka_unit_test(one_white_color_gives_the_bits_of_the_plain_kernel),
         cmocka_unit_test(hues_leave_the_mean_of_the_channels),

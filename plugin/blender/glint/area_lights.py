@@ -9,8 +9,8 @@ NAME = "EXT_lights_area"
 
 ROUND = {"DISK", "ELLIPSE"}
 
-# Watts of Blender's that give a square metre the radiance 1. A Lambertian emitter sends out pi; Cycles and EEVEE take 4, as
-# ctest -R blender_scene measures.
+# Cycles gives an area light of power P and area A the radiance P / (4 A), not a Lambertian emitter's P / (pi A): measured
+# by tests/plugin/test_cycles_flakes.py.
 WATTS_PER_RADIANCE = 4.0
 
 

@@ -109,7 +109,7 @@ def _get(collection, attribute, kind, width=1):
 
 
 def _texcoords(mesh, layer):
-    uv = compat.uv_values(layer, len(mesh.loops))
+    uv = compat.uv_arrays(layer, len(mesh.loops))
     numpy.subtract(1.0, uv[:, 1], out=uv[:, 1])
     return uv
 

@@ -5,8 +5,8 @@
  * its neighbour, which is the largest relative error of one rounding. A bound of k of them says that k roundings add up
  * at worst.
  */
-#ifndef TESTS_WIDE_H
-#define TESTS_WIDE_H
+#ifndef STUDY_WIDE_H
+#define STUDY_WIDE_H
 
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +43,7 @@ static inline wide relative_error(double got, wide exact)
 /* Prints what was measured; 1 where the bound holds everywhere. */
 static inline int worst_holds(const worst_error *w, const char *what, double unit)
 {
-    printf("%-44s %8.2Lf of %8.2Lf roundings, at %g %g %g\n", what, w->measured / (wide)unit, w->allowed / (wide)unit,
+    printf("%-44s %8.3Lg of %8.3Lg roundings, at %g %g %g\n", what, w->measured / (wide)unit, w->allowed / (wide)unit,
            w->at[0], w->at[1], w->at[2]);
     return w->error <= 1.0L;
 }

@@ -1,0 +1,53 @@
+/* Inside the plan: the budget as it is shared out, and how decisions are written down. */
+#ifndef PLAN_PLAN_H
+#define PLAN_PLAN_H
+
+#include "glint.h"
+#include "plan/cost_table.h"
+
+/* A pixel under box filter varies by up to so many times (1 - p) / (N p): docs/truth.md, single pixels, 16 samples. */
+#define PLAN_PIXEL_VARIANCE 1.1
+/* A drawn realisation varies by no more than so many 1 / (N p): model/counting_drawn.c. */
+#define PLAN_DRAW_VARIANCE 9.0
+
+/* What the plan says to the renderer. */
+typedef struct plan_material {
+    int is_smooth;
+    float smooth_deviation, draw_deviation;
+    glint_area_light_method method;
+} plan_material;
+
+struct glint_plan {
+    glint_plan_summary summary; /* of its pointers none is followed after the plan is made */
+    glint_allocator allocator;
+    glint_plan_outcome outcome;
+    double variance; /* of all errors so far */
+    plan_material *materials;
+    int *shadows; /* of each light */
+    glint_decision *decisions;
+    uint32_t count, capacity;
+};
+
+/* Appends a decision; the reason is a format. error adds to the plan's. */
+glint_decision *plan_decide(glint_plan *p, glint_decision d, const char *reason, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The error that may still be spent, and its share of one in n. */
+double plan_left(const glint_plan *p, int n);
+
+/* N p in the middle of a bin. */
+double plan_bin_middle(uint32_t bin);
+
+/* plan_facets.c: FACETS, LOOKUPS and COLORS of a material. deviation: of a pixel, that each of the two may leave. */
+void plan_facets(glint_plan *p, uint32_t material, double facets_error, double draws_error);
+/* Whether facets of any material are counted by a model that can leave some out. */
+int plan_counts(const glint_plan *p, uint32_t material);
+/* Whether a light of this material is sampled and not evaluated. */
+int plan_is_surrounded(const glint_plan *p, uint32_t material);
+
+/* plan_scene.c: everything else. */
+void plan_surfaces(glint_plan *p);
+void plan_lights(glint_plan *p);
+void plan_bounces(glint_plan *p);
+void plan_samples(glint_plan *p);
+
+#endif

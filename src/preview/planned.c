@@ -1,0 +1,33 @@
+/* Looks at the view, makes its plan, and lets the world obey: materials that leave out, fewer bounces, fewer shadows.
+ */
+#include "preview/planned.h"
+
+#include "preview/survey.h"
+
+bool planned_make(planned *p, const preview_options *options, world *w, light *lights, report *r)
+{
+    survey seen;
+    char message[256] = "";
+    if (!survey_make(w, options, &seen, r))
+        return false;
+    const glint_result result = glint_plan_create(&seen.summary, &p->plan, message, sizeof message);
+    survey_free(&seen);
+    if (result != GLINT_OK)
+        return report_error(r, "preview: no plan: %s", message[0] != '\0' ? message : glint_result_text(result));
+    const bool made = materials_make(w->shader.scene, options->model, options->facets, p->plan, &p->materials, r);
+    w->shader.materials = &p->materials;
+    w->bounces = (int)glint_plan_result(p->plan).bounces;
+    if (w->bounces == 0)
+        w->emitters = NULL;
+    for (int i = 0; i < w->light_count; ++i)
+        lights[i].unshadowed = !glint_plan_shadows(p->plan, (uint32_t)i);
+    return made;
+}
+
+void planned_free(planned *p)
+{
+    if (p->materials.scene != NULL)
+        materials_free(&p->materials);
+    glint_plan_destroy(p->plan);
+    *p = (planned){ 0 };
+}

@@ -1,0 +1,17 @@
+/* What the error budget leaves of a view. */
+#ifndef PREVIEW_PLANNED_H
+#define PREVIEW_PLANNED_H
+
+#include "preview/integrator.h"
+
+typedef struct planned {
+    glint_plan *plan;
+    materials materials;
+} planned;
+
+/* Plans for options->accuracy and makes *w, with its lights, obey. What *w points to then belongs to *p. Whether it
+ * succeeds or not, planned_free frees what there is. */
+bool planned_make(planned *p, const preview_options *options, world *w, light *lights, report *r);
+void planned_free(planned *p);
+
+#endif

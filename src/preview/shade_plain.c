@@ -1,0 +1,100 @@
+/* Surfaces that are the same everywhere: without textures, vertex colours, coat and turned highlights nothing is looked
+ * up at a hit, and all that it needs is known before the first ray. */
+#include <stdlib.h>
+
+#include "preview/shade_parts.h"
+#include "scene/surface.h"
+
+struct shade_constant {
+    shade_preparer *prepare;
+    glint_surface surface;
+    float emission[3], albedo[3], opacity;
+};
+
+static bool has_textures(const scene_material *m)
+{
+    const scene_texture *list[SCENE_MATERIAL_TEXTURES];
+    scene_material_textures(m, list);
+    for (int i = 0; i < SCENE_MATERIAL_TEXTURES; ++i) {
+        const bool is_example = list[i] == &m->glint.example_texture || list[i] == &m->coat_glint.example_texture;
+        if (list[i]->image != SCENE_NONE && !is_example)
+            return true;
+    }
+    return false;
+}
+
+static bool has_vertex_colors(const scene *s, int material)
+{
+    for (int i = 0; i < s->mesh_count; ++i)
+        if (s->meshes[i].material == material && s->meshes[i].color != NULL)
+            return true;
+    return false;
+}
+
+static bool is_plain(const scene *s, int material)
+{
+    const scene_material *const m = &s->materials[material];
+    return !m->unlit && !(m->clearcoat > 0.0F) && m->anisotropy_rotation == 0.0F && !has_textures(m) &&
+           !has_vertex_colors(s, material);
+}
+
+static struct shade_constant constant_of(const scene_material *m)
+{
+    const scene_texels t = scene_texels_of(m);
+    struct shade_constant c = { .prepare = shade_prepare_plain,
+                                .surface = scene_base_surface(m, &t),
+                                .opacity = m->alpha_mode == SCENE_ALPHA_BLEND ? fminf(t.base_color[3], 1.0F) : 1.0F };
+    for (int i = 0; i < 3; ++i) {
+        c.emission[i] = m->emissive[i];
+        c.albedo[i] = t.base_color[i];
+    }
+    return c;
+}
+
+bool shader_open(shader *s, report *r)
+{
+    const size_t count = (size_t)s->scene->material_count + 1U;
+    struct shade_constant *const made = calloc(count, sizeof *made);
+    if (made == NULL)
+        return report_error(r, "no memory for %d materials", s->scene->material_count);
+    for (int i = 0; i < s->scene->material_count; ++i) {
+        made[i].prepare = shade_prepare_any;
+        if (is_plain(s->scene, i))
+            made[i] = constant_of(&s->scene->materials[i]);
+    }
+    s->constants = made;
+    return true;
+}
+
+void shader_close(shader *s)
+{
+    free(s->constants);
+    s->constants = NULL;
+}
+
+void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
+{
+    s->constants[h->mesh->material].prepare(s, h, step, wo, choice, out);
+}
+
+void shade_prepare_plain(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
+{
+    const struct shade_constant *const c = &s->constants[h->mesh->material];
+    const material_layers *const handles = &s->materials->layers[h->mesh->material];
+    out->layer_count = 1;
+    out->whole = handles->whole;
+    out->occlusion = 1.0F;
+    out->opacity = c->opacity;
+    for (int i = 0; i < 3; ++i) {
+        out->emission[i] = c->emission[i];
+        out->albedo[i] = c->albedo[i];
+    }
+    shade_layer *const base = &out->layers[0];
+    base->material = handles->base;
+    base->counts = handles->base_counts;
+    base->mapped = handles->base_mapped;
+    base->surface = c->surface;
+    base->weight = 1.0F;
+    shade_set_frame(base, h->normal, h->tangent, wo);
+    shade_place_glints(s, h, step, choice, wo, out);
+}

@@ -1,0 +1,24 @@
+/* A few hundred pixels, looked at before the render: what the plan needs to know of a view. */
+#ifndef PREVIEW_SURVEY_H
+#define PREVIEW_SURVEY_H
+
+#include "preview/integrator.h"
+
+typedef struct survey_name {
+    char text[56];
+} survey_name;
+
+typedef struct survey {
+    glint_plan_summary summary;      /* points to the others */
+    glint_material_options *options; /* base and coat of every material */
+    glint_plan_material *materials;
+    glint_plan_light *lights; /* those of the world, then surroundings where there are any */
+    glint_plan_pair *pairs;
+    survey_name *light_names;
+} survey;
+
+/* w leaves nothing out. The same for every number of threads and for every tile of a picture. */
+bool survey_make(const world *w, const preview_options *o, survey *out, report *r);
+void survey_free(survey *s);
+
+#endif

@@ -1,0 +1,272 @@
+/* Measures what the plan reckons with, and prints it as src/plan/cost_table.c: `./dev bench` builds it, then
+ *
+ *     build/release/bench/costs > src/plan/cost_table.c
+ *
+ * Each number is the least CPU time of several rounds, which a busy machine disturbs least. What a renderer does to a
+ * sample is the difference of two pictures' times, over samples; set-up cancels in pictures of few and of many samples.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plan/cost_table.h"
+#include "preview/preview.h"
+#include "race.h"
+#include "scenes.h"
+#include "statistics.h"
+
+enum { ROUNDS = 9, CALLS = 1500, SIDE = 48, FEW = 4, MANY = 16 };
+
+static double cost[PLAN_COST_COUNT];
+static double ltc_error[2];
+
+static const char *const names[PLAN_COST_COUNT] = {
+    [PLAN_COST_CAMERA_RAY] = "CAMERA_RAY",
+    [PLAN_COST_BOUNCE_RAY] = "BOUNCE_RAY",
+    [PLAN_COST_SHADOW_RAY] = "SHADOW_RAY",
+    [PLAN_COST_SMOOTH] = "SMOOTH",
+    [PLAN_COST_COUNTED] = "COUNTED",
+    [PLAN_COST_COUNTED_COLORS] = "COUNTED_COLORS",
+    [PLAN_COST_DRAWN] = "DRAWN",
+    [PLAN_COST_FADED] = "FADED",
+    [PLAN_COST_DICTIONARY] = "DICTIONARY",
+    [PLAN_COST_EXAMPLE] = "EXAMPLE",
+    [PLAN_COST_EXPLICIT_FACET] = "EXPLICIT_FACET",
+    [PLAN_COST_LTC] = "LTC",
+    [PLAN_COST_QUADRATURE] = "QUADRATURE",
+    [PLAN_COST_COAT] = "COAT",
+    [PLAN_COST_TEXTURE] = "TEXTURE",
+    [PLAN_COST_NORMAL_MAP] = "NORMAL_MAP",
+    [PLAN_COST_ALPHA] = "ALPHA",
+    [PLAN_COST_ANISOTROPY] = "ANISOTROPY",
+};
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "costs: %s\n", what);
+    exit(1);
+}
+
+/* ---- calls of the library ---- */
+
+/* Pixels of 100 facets, half vectors within the lobe. */
+static void evaluate(const glint_material *m, const glint_area_light *area, double *sink)
+{
+    uint64_t random = 1;
+    for (int i = 0; i < CALLS; i++) {
+        const float x = (float)random_between(&random, -0.4, 0.4), y = (float)random_between(&random, -0.4, 0.4);
+        const float wo[3] = { x, y, sqrtf(1.0F - x * x - y * y) }, wi[3] = { -y, x, wo[2] };
+        const glint_footprint f = { .u = random_between(&random, -1.0, 1.0),
+                                    .v = random_between(&random, -1.0, 1.0),
+                                    .dudx = 1e-3F,
+                                    .dvdx = 2e-4F,
+                                    .dvdy = 1e-3F,
+                                    .draw = (uint32_t)random_bits(&random) };
+        const glint_light light = { GLINT_LIGHT_CAP, 1e-2F };
+        glint_value value;
+        if (area)
+            glint_eval_area(m, NULL, &f, wo, area, &value);
+        else
+            glint_eval_value(m, NULL, &f, wo, wi, &light, &value);
+        *sink += (double)value.rgb[0];
+    }
+}
+
+static double time_of(const glint_material_options *o, const glint_area_light *area)
+{
+    glint_material *m;
+    char message[256];
+    double least = HUGE_VAL, sink = 0.0;
+    if (glint_material_create(o, &m, message, sizeof message) != GLINT_OK)
+        stop(message);
+    for (int r = 0; r < ROUNDS; r++) {
+        const double start = race_now();
+        evaluate(m, area, &sink);
+        least = fmin(least, race_now() - start);
+    }
+    glint_material_destroy(m);
+    return sink >= 0.0 ? 1e9 * least / CALLS : 0.0;
+}
+
+static const glint_area_light window = { .kind = GLINT_AREA_RECTANGLE,
+                                         .two_sided = 1,
+                                         .center = { 0.3F, 0.2F, 1.0F },
+                                         .half_x = { 0.3F, 0.0F, 0.0F },
+                                         .half_y = { 0.0F, 0.2F, 0.0F } };
+
+static void measure_models(void)
+{
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    cost[PLAN_COST_COUNTED] = time_of(&o, NULL);
+    o.smooth_deviation = 1e5F;
+    cost[PLAN_COST_FADED] = time_of(&o, NULL);
+    o.smooth_deviation = 0.0F;
+    o.draw_deviation = 1e5F;
+    cost[PLAN_COST_DRAWN] = time_of(&o, NULL);
+    o.draw_deviation = 0.0F;
+    o.color_variation = 0.5F;
+    cost[PLAN_COST_COUNTED_COLORS] = time_of(&o, NULL);
+    o.color_variation = 0.0F;
+    o.model = GLINT_MODEL_SMOOTH;
+    cost[PLAN_COST_SMOOTH] = time_of(&o, NULL);
+    cost[PLAN_COST_LTC] = time_of(&o, &window);
+    o.area_light_method = GLINT_AREA_LIGHT_EXACT;
+    cost[PLAN_COST_QUADRATURE] = time_of(&o, &window);
+    o.model = GLINT_MODEL_DICTIONARY;
+    cost[PLAN_COST_DICTIONARY] = time_of(&o, NULL);
+    o.model = GLINT_MODEL_EXPLICIT;
+    cost[PLAN_COST_EXPLICIT_FACET] = time_of(&o, NULL) / 100.0;
+    o.model = GLINT_MODEL_EXAMPLE;
+    cost[PLAN_COST_EXAMPLE] = time_of(&o, NULL);
+}
+
+/* Lights from a tenth of a steradian up, at all angles; relative to the light that there is. */
+static double measure_ltc(glint_distribution distribution)
+{
+    uint64_t random = 3;
+    double square = 0.0, light = 0.0;
+    for (int k = 0; k < 600; k++) {
+        glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+        glint_material *fast, *exact;
+        o.model = GLINT_MODEL_SMOOTH;
+        o.distribution = distribution;
+        o.surface.alpha_x = o.surface.alpha_y = (float)random_log_between(&random, 0.03, 1.0);
+        if (glint_material_create(&o, &fast, NULL, 0) != GLINT_OK)
+            stop("no material");
+        o.area_light_method = GLINT_AREA_LIGHT_EXACT;
+        if (glint_material_create(&o, &exact, NULL, 0) != GLINT_OK)
+            stop("no material");
+        for (int i = 0; i < 10; i++) {
+            const double angle = random_between(&random, 0.0, 1.3);
+            const float wo[3] = { (float)sin(angle), 0.0F, (float)cos(angle) };
+            glint_area_light at = window;
+            for (int c = 0; c < 2; c++)
+                at.center[c] = (float)random_between(&random, -1.5, 1.5);
+            at.half_x[0] = (float)random_log_between(&random, 0.05, 1.0);
+            at.half_y[1] = (float)random_log_between(&random, 0.05, 1.0);
+            glint_value a, b;
+            glint_eval_area(fast, NULL, NULL, wo, &at, &a);
+            glint_eval_area(exact, NULL, NULL, wo, &at, &b);
+            square += ((double)a.rgb[0] - (double)b.rgb[0]) * ((double)a.rgb[0] - (double)b.rgb[0]);
+            light += (double)b.rgb[0] * (double)b.rgb[0];
+        }
+        glint_material_destroy(fast);
+        glint_material_destroy(exact);
+    }
+    return sqrt(square / light);
+}
+
+/* ---- samples of pictures ---- */
+
+typedef struct setting {
+    bool lit, textured, bumpy, masked, coated, stretched, ball;
+    int bounces;
+} setting;
+
+static scene make_scene(const setting *c)
+{
+    static const uint8_t gray[16] = { 200, 200, 200, 255, 180, 180, 180, 255, 180, 180, 180, 255, 200, 200, 200, 255 };
+    static const uint8_t flat[16] = { 128, 128, 255, 255, 128, 128, 255, 255, 128, 128, 255, 255, 128, 128, 255, 255 };
+    static const float from[3] = { 0.2F, 1.0F, 0.3F };
+    scene s = scenes_empty();
+    scene_material m = scene_material_default();
+    m.metallic = 0.0F;
+    m.roughness = 0.5F;
+    if (c->textured || c->masked)
+        m.base_color_texture = scenes_add_texture(&s, gray, 2, 2);
+    if (c->bumpy)
+        m.normal_texture = scenes_add_texture(&s, flat, 2, 2);
+    if (c->masked)
+        m.alpha_mode = SCENE_ALPHA_MASK;
+    if (c->stretched)
+        m.anisotropy = 0.5F;
+    if (c->coated)
+        m.clearcoat = 1.0F;
+    const int material = scenes_add_material(&s, &m);
+    scenes_add_instance(&s, scenes_add_square(&s, material, 1.0F), NULL, 0);
+    if (c->ball)
+        scenes_add_instance(&s, scenes_add_sphere(&s, material, 0.3F, 32, 16), NULL, 1);
+    if (c->lit)
+        scenes_add_light(&s, SCENE_LIGHT_POINT, from, 1.0F);
+    return s;
+}
+
+static double render_s(const scene *s, const preview_options *from, int spp, preview_statistics *statistics)
+{
+    preview_options o = *from;
+    image picture;
+    report r = { 0 };
+    o.spp = spp;
+    const double start = race_now();
+    if (!preview_render(s, &o, &picture, statistics, &r))
+        stop(r.error);
+    const double seconds = race_now() - start;
+    image_free(&picture);
+    return seconds;
+}
+
+/* ns a sample; *bounce_rays: of a sample. */
+static double sample_ns(const setting *c, double *bounce_rays)
+{
+    static const preview_sky black = { { 0.0F }, { 0.0F }, { 0.0F } };
+    static const float eye[3] = { 0.0F, 1.0F, 1e-4F }, target[3] = { 0.0F, 0.0F, 0.0F };
+    const scene_camera camera = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, 0.9F);
+    scene s = make_scene(c);
+    preview_options o = PREVIEW_OPTIONS_INIT;
+    preview_statistics few, many;
+    o.width = o.height = SIDE;
+    o.bounces = c->bounces;
+    o.threads = 1;
+    o.camera = &camera;
+    o.sky = c->bounces > 0 ? NULL : &black;
+    double least_few = HUGE_VAL, least_many = HUGE_VAL;
+    for (int r = 0; r < ROUNDS; r++) {
+        least_few = fmin(least_few, render_s(&s, &o, FEW, &few));
+        least_many = fmin(least_many, render_s(&s, &o, MANY, &many));
+    }
+    scene_free(&s);
+    const double samples = (double)SIDE * SIDE * (MANY - FEW);
+    if (bounce_rays)
+        *bounce_rays = (double)(many.bounce_rays - few.bounce_rays) / samples;
+    return 1e9 * (least_many - least_few) / samples;
+}
+
+static void measure_samples(void)
+{
+    double none, some;
+    /* A sky is gone through by a ray from every surface, so even without bounces: they are counted, and paid, apart. */
+    const double bare = sample_ns(&(setting){ 0 }, &none);
+    const double per_ray =
+        (sample_ns(&(setting){ .ball = true, .bounces = 1 }, &some) - sample_ns(&(setting){ .ball = true }, &none)) /
+        1.0;
+    const double lit = sample_ns(&(setting){ .lit = true }, NULL);
+    const double textured = sample_ns(&(setting){ .textured = true }, NULL);
+    cost[PLAN_COST_CAMERA_RAY] = bare;
+    cost[PLAN_COST_BOUNCE_RAY] = per_ray / fmax(some - none, 1e-3);
+    cost[PLAN_COST_SHADOW_RAY] = lit - bare - cost[PLAN_COST_SMOOTH];
+    cost[PLAN_COST_TEXTURE] = textured - bare;
+    cost[PLAN_COST_NORMAL_MAP] = sample_ns(&(setting){ .bumpy = true }, NULL) - bare;
+    cost[PLAN_COST_ALPHA] = sample_ns(&(setting){ .masked = true }, NULL) - textured;
+    cost[PLAN_COST_COAT] = sample_ns(&(setting){ .lit = true, .coated = true }, NULL) - lit;
+    cost[PLAN_COST_ANISOTROPY] = sample_ns(&(setting){ .lit = true, .stretched = true }, NULL) - lit;
+}
+
+int main(void)
+{
+    measure_models();
+    measure_samples();
+    ltc_error[0] = measure_ltc(GLINT_DISTRIBUTION_GGX);
+    ltc_error[1] = measure_ltc(GLINT_DISTRIBUTION_BECKMANN);
+    puts("/* What things cost and how far they are off. Measured, and written, by tests/bench/costs.c:\n"
+         " *\n"
+         " *     ./dev bench && build/release/bench/costs > src/plan/cost_table.c\n"
+         " */\n"
+         "#include \"plan/cost_table.h\"\n\n"
+         "const float plan_costs[PLAN_COST_COUNT] = {");
+    /* Below the noise of the measurement something costs nothing. */
+    for (int i = 0; i < PLAN_COST_COUNT; i++)
+        printf("    [PLAN_COST_%s] = %.1fF,\n", names[i], fmax(cost[i], 0.0));
+    printf("};\n\nconst float plan_ltc_errors[2] = { %.2gF, %.2gF };\n", ltc_error[0], ltc_error[1]);
+    return 0;
+}

@@ -1,0 +1,359 @@
+/* The plan: decisions follow from the summary's numbers, errors add up to no more than the budget, and a summary that
+ * cannot be is refused by name. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glint.h"
+#include "statistics.h"
+
+/* One material under one light, N p facets lit in every pixel. */
+typedef struct small_scene {
+    glint_material_options options;
+    glint_plan_material material;
+    glint_plan_light light;
+    glint_plan_pair pair;
+    glint_plan_summary summary;
+} small_scene;
+
+static void fill(small_scene *s, float lit_facets, uint32_t samples)
+{
+    s->options = (glint_material_options)GLINT_MATERIAL_OPTIONS_INIT;
+    s->material = (glint_plan_material){ .name = "flakes", .base = &s->options, .seen = 1.0F };
+    s->light = (glint_plan_light){ .name = "the lamp", .shadow_rays = 400, .blocked_rays = 30 };
+    s->pair = (glint_plan_pair){ .seen = 1.0F };
+    s->pair.share[glint_plan_bin(lit_facets)] = 1.0F;
+    s->pair.rate[glint_plan_bin(lit_facets)] = 1.0F;
+    s->summary = (glint_plan_summary)GLINT_PLAN_SUMMARY_INIT;
+    s->summary.materials = &s->material;
+    s->summary.lights = &s->light;
+    s->summary.pairs = &s->pair;
+    s->summary.material_count = s->summary.light_count = s->summary.pair_count = 1;
+    s->summary.samples_per_pixel = samples;
+    s->summary.pixel_count = 400;
+}
+
+static glint_plan *plan_of(const small_scene *s)
+{
+    glint_plan *plan;
+    char message[256];
+    if (glint_plan_create(&s->summary, &plan, message, sizeof message) != GLINT_OK)
+        fail_msg("%s", message);
+    return plan;
+}
+
+static const glint_decision *find(const glint_plan *plan, glint_effect effect)
+{
+    for (uint32_t i = 0; i < glint_plan_decision_count(plan); i++)
+        if (glint_plan_decision(plan, i)->effect == effect)
+            return glint_plan_decision(plan, i);
+    fail_msg("no decision about %s", glint_effect_name(effect));
+    return NULL;
+}
+
+static void bins_are_powers_of_two(void **state)
+{
+    (void)state;
+    for (int k = -16; k < 32; k++) {
+        assert_int_equal(glint_plan_bin((float)ldexp(1.0, k)), k + 16);
+        assert_int_equal(glint_plan_bin((float)ldexp(1.99, k)), k + 16);
+    }
+    assert_int_equal(glint_plan_bin(0.0F), 0);
+    assert_int_equal(glint_plan_bin(-1.0F), 0);
+    assert_int_equal(glint_plan_bin((float)NAN), 0);
+    assert_int_equal(glint_plan_bin(1e30F), GLINT_PLAN_BINS - 1);
+}
+
+/* 1.1 / (N p) of variance against a budget of 0.02: 2750 facets. */
+static void few_facets_are_counted_and_many_are_smooth(void **state)
+{
+    (void)state;
+    small_scene s;
+    fill(&s, 10.0F, 16);
+    glint_plan *few = plan_of(&s);
+    assert_string_equal(find(few, GLINT_EFFECT_FACETS)->choice, "counted");
+    assert_true(find(few, GLINT_EFFECT_FACETS)->ns_per_sample > 0.0F);
+    glint_material_options cut = s.options;
+    glint_plan_cut(few, 0, &cut);
+    assert_int_equal(cut.model, GLINT_MODEL_COUNTING);
+    /* Of a tile, of which 16 make a pixel: at most four times the budget. */
+    assert_true(cut.smooth_deviation > 0.06F && cut.smooth_deviation <= 0.08F);
+    glint_plan_destroy(few);
+
+    fill(&s, 1e4F, 16);
+    glint_plan *many = plan_of(&s);
+    assert_string_equal(find(many, GLINT_EFFECT_FACETS)->choice, "smooth");
+    assert_false(find(many, GLINT_EFFECT_FACETS)->is_on);
+    assert_true(find(many, GLINT_EFFECT_FACETS)->ns_per_sample == 0.0F);
+    assert_non_null(strstr(find(many, GLINT_EFFECT_FACETS)->reason, "the lamp"));
+    cut = s.options;
+    glint_plan_cut(many, 0, &cut);
+    assert_int_equal(cut.model, GLINT_MODEL_SMOOTH);
+    glint_plan_destroy(many);
+}
+
+/* A draw adds 9 / (N p) of a tile to a sample: with 1024 samples and 16 tiles 9 16 / (1024 N p) to a pixel, and the
+ * facets themselves still show where 1.1 / (N p) is more than the budget. */
+static void many_samples_allow_single_draws(void **state)
+{
+    (void)state;
+    small_scene s;
+    fill(&s, 1500.0F, 1024);
+    glint_plan *plan = plan_of(&s);
+    assert_string_equal(find(plan, GLINT_EFFECT_LOOKUPS)->choice, "one of 48");
+    glint_material_options cut = s.options;
+    glint_plan_cut(plan, 0, &cut);
+    assert_true(cut.draw_deviation > 0.0F && cut.draw_deviation <= 0.02F * 32.0F);
+    glint_plan_destroy(plan);
+
+    fill(&s, 1500.0F, 16);
+    plan = plan_of(&s);
+    assert_string_equal(find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 48");
+    glint_plan_destroy(plan);
+
+    fill(&s, 1500.0F, 1024);
+    s.light.kind = GLINT_PLAN_LIGHT_SURROUNDINGS;
+    plan = plan_of(&s);
+    assert_string_equal(find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 48");
+    glint_plan_destroy(plan);
+}
+
+static void nothing_is_left_out_without_a_budget(void **state)
+{
+    (void)state;
+    small_scene s;
+    fill(&s, 1e9F, 1024);
+    s.summary.error_budget = 0.0F;
+    s.summary.bounces = 2;
+    s.light.blocked_rays = 0;
+    glint_plan *plan = plan_of(&s);
+    glint_material_options cut = s.options;
+    glint_plan_cut(plan, 0, &cut);
+    assert_int_equal(cut.model, GLINT_MODEL_COUNTING);
+    assert_true(cut.smooth_deviation == 0.0F && cut.draw_deviation == 0.0F);
+    assert_true(glint_plan_result(plan).error == 0.0F);
+    assert_int_equal(glint_plan_result(plan).bounces, 2);
+    assert_true(glint_plan_shadows(plan, 0));
+    glint_plan_destroy(plan);
+}
+
+/* None of n rays blocked: fewer than 3 / n are, with 95 % of confidence, and each costs all of a pixel's light. */
+static void shadows_go_only_where_enough_rays_passed(void **state)
+{
+    (void)state;
+    small_scene s;
+    fill(&s, 10.0F, 16);
+    s.light.blocked_rays = 0;
+    glint_plan *plan = plan_of(&s);
+    assert_true(glint_plan_shadows(plan, 0));
+    glint_plan_destroy(plan);
+    s.light.shadow_rays = 100000;
+    plan = plan_of(&s);
+    assert_false(glint_plan_shadows(plan, 0));
+    assert_true(find(plan, GLINT_EFFECT_SHADOWS)->error > 0.0F);
+    glint_plan_destroy(plan);
+    s.light.blocked_rays = 1;
+    plan = plan_of(&s);
+    assert_true(glint_plan_shadows(plan, 0));
+    glint_plan_destroy(plan);
+}
+
+/* Random summaries: the error of what is left out is within the budget, shares of time add up to one. */
+static void errors_stay_within_the_budget(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int k = 0; k < 20000; k++) {
+        small_scene s;
+        fill(&s, (float)random_log_between(&random, 1e-4, 1e9), (uint32_t)random_log_between(&random, 1.0, 4096.0));
+        s.summary.tiles_per_pixel = s.summary.samples_per_pixel < 16 ? 1 : 16;
+        s.summary.error_budget = (float)random_log_between(&random, 1e-4, 1.0);
+        s.summary.bounces = (uint32_t)random_between(&random, 0.0, 3.0);
+        s.summary.bounced = (float)random_log_between(&random, 1e-6, 1.0);
+        s.summary.noise = (float)random_log_between(&random, 1e-3, 10.0);
+        s.light.kind = (glint_plan_light_kind)(random_bits(&random) % 3);
+        s.light.blocked_rays = random_bits(&random) % 2 ? 0U : 7U;
+        s.light.shadow_rays = (uint32_t)random_log_between(&random, 7.0, 1e6);
+        s.options.color_variation = random_bits(&random) % 2 ? 0.0F : 0.9F;
+        glint_plan *plan = plan_of(&s);
+        const glint_plan_outcome out = glint_plan_result(plan);
+        double time = 0.0, variance = 0.0;
+        for (uint32_t i = 0; i < glint_plan_decision_count(plan); i++) {
+            const glint_decision *d = glint_plan_decision(plan, i);
+            time += (double)d->time_share;
+            variance += (double)d->error * (double)d->error;
+            assert_true(d->choice[0] != '\0' && d->reason[0] != '\0');
+            assert_true(d->is_on || d->ns_per_sample == 0.0F);
+        }
+        assert_true(fabs(time - 1.0) < 1e-4);
+        assert_true(fabs(sqrt(variance) - (double)out.error) < 1e-5);
+        if (!((double)out.error <= (double)s.summary.error_budget * (1.0 + 1e-6)))
+            fail_msg("error %g, budget %g", (double)out.error, (double)s.summary.error_budget);
+        /* Root sum of squares, and not met where it is too much. */
+        const double both = hypot((double)out.error, (double)out.noise), budget = (double)s.summary.error_budget;
+        assert_true(fabs(both - budget) < 1e-5 * budget || out.is_met == (both <= budget));
+        glint_plan_destroy(plan);
+    }
+}
+
+static void impossible_summaries_are_refused_by_name(void **state)
+{
+    (void)state;
+    small_scene s;
+    glint_plan *plan;
+    char message[256];
+    fill(&s, 1.0F, 16);
+    s.summary.error_budget = (float)NAN;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_RANGE);
+    assert_null(plan);
+    assert_non_null(strstr(message, "error_budget"));
+    fill(&s, 1.0F, 16);
+    s.pair.light = 1;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_RANGE);
+    assert_string_equal(message, "pairs[0].light is 1, expected less than 1");
+    fill(&s, 1.0F, 16);
+    s.summary.size = 4;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_ARGUMENT);
+    assert_non_null(strstr(message, "GLINT_PLAN_SUMMARY_INIT"));
+    fill(&s, 1.0F, 16);
+    s.material.base = NULL;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_ARGUMENT);
+    assert_int_equal(glint_plan_create(NULL, &plan, message, sizeof message), GLINT_ERROR_ARGUMENT);
+    assert_int_equal(glint_plan_create(&s.summary, NULL, NULL, 0), GLINT_ERROR_ARGUMENT);
+}
+
+static void *refuse(size_t byte_count, void *user)
+{
+    (void)byte_count;
+    (void)user;
+    return NULL;
+}
+
+static void release(void *memory, void *user)
+{
+    (void)user;
+    free(memory);
+}
+
+static void no_memory_is_said(void **state)
+{
+    (void)state;
+    small_scene s;
+    glint_plan *plan;
+    char message[256];
+    fill(&s, 1.0F, 16);
+    s.summary.allocator = (glint_allocator){ refuse, release, NULL };
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_MEMORY);
+    assert_null(plan);
+    glint_plan_destroy(NULL);
+}
+
+/* ---- the counting model obeys ---- */
+
+enum { SEEDS = 4000 };
+
+/* Values over seeds at a footprint of N facets, of which p are lit. */
+static void evaluate(const glint_material *m, double n, int i, uint32_t draw, glint_value *value)
+{
+    static const float wo[3] = { 0.0F, 0.0F, 1.0F }, wi[3] = { 0.0995037F, 0.0F, 0.995037F };
+    const float side = (float)sqrt(n / 1e8);
+    const glint_footprint f = { .u = 0.01 * i, .v = 0.37 * i, .dudx = side, .dvdy = side, .draw = draw };
+    const glint_light light = { GLINT_LIGHT_CAP, 0.02F };
+    glint_eval_value(m, NULL, &f, wo, wi, &light, value);
+}
+
+static glint_material *material_with(float smooth_deviation, float draw_deviation)
+{
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    glint_material *m;
+    o.smooth_deviation = smooth_deviation;
+    o.draw_deviation = draw_deviation;
+    assert_int_equal(glint_material_create(&o, &m, NULL, 0), GLINT_OK);
+    return m;
+}
+
+/* What is left out has the mean zero and never varies by more than the limit, from counting all to counting nothing. */
+static void what_fades_never_varies_by_more_than_its_limit(void **state)
+{
+    (void)state;
+    const float limit = 0.1F;
+    glint_material *all = material_with(0.0F, 0.0F), *less = material_with(limit, 0.0F);
+    double before = -1.0;
+    for (double n = 100.0; n < 3e4; n *= 1.25) {
+        moments off = { 0 };
+        double shown = 0.0, lit = 0.0;
+        for (int i = 0; i < SEEDS; i++) {
+            glint_value a, b;
+            evaluate(all, n, i, 0U, &a);
+            evaluate(less, n, i, 0U, &b);
+            moments_add(&off, ((double)b.rgb[0] - (double)a.rgb[0]) / (double)a.smooth[0]);
+            const double counted = (double)a.rgb[0] - (double)a.smooth[0];
+            shown =
+                fabs(counted) > 1e-3 * (double)a.smooth[0] ? ((double)b.rgb[0] - (double)b.smooth[0]) / counted : shown;
+            lit = (double)b.lit_probability * (double)b.facet_count;
+            assert_true(a.facet_count == b.facet_count && a.lit_probability == b.lit_probability);
+        }
+        const double deviation = sqrt(moments_variance(&off));
+        printf("N p %8.1f: %3.0f %% of the count shows; what is left out varies by %.4f\n", lit, 100.0 * shown,
+               deviation);
+        /* The count itself varies by half of 1 / (N p); 4000 samples know a deviation to 1.1 %. */
+        assert_true(deviation <= (double)limit * sqrt(0.5) * 1.05);
+        assert_true(fabs(off.mean) < 4.5 * moments_standard_error(&off) + 1e-6);
+        /* No seam: a quarter more facets never take more than a third of the count away. */
+        assert_true(before < 0.0 || (shown <= before + 1e-4 && shown >= before - 0.34));
+        before = shown;
+    }
+    assert_true(before == 0.0);
+    glint_material_destroy(all);
+    glint_material_destroy(less);
+}
+
+/* Draws of single realisations have the mean of the whole value, and no more noise than was allowed. */
+static void draws_vary_by_no_more_than_they_may(void **state)
+{
+    (void)state;
+    const float limit = 1.0F;
+    glint_material *all = material_with(0.0F, 0.0F), *drawn = material_with(0.0F, limit);
+    uint64_t random = 9;
+    int differ = 0;
+    for (double n = 10.0; n < 3e4; n *= 2.0) {
+        moments off = { 0 };
+        for (int i = 0; i < SEEDS; i++) {
+            glint_value a, b;
+            evaluate(all, n, i, 0U, &a);
+            evaluate(drawn, n, i, (uint32_t)random_bits(&random), &b);
+            moments_add(&off, ((double)b.rgb[0] - (double)a.rgb[0]) / (double)a.smooth[0]);
+        }
+        const double deviation = sqrt(moments_variance(&off));
+        printf("N %8.0f: draws vary by %.4f\n", n, deviation);
+        differ += deviation > 0.0;
+        assert_true(deviation <= (double)limit * 1.05);
+        assert_true(fabs(off.mean) < 4.5 * moments_standard_error(&off) + 1e-6);
+    }
+    assert_true(differ > 5);
+    glint_material_destroy(all);
+    glint_material_destroy(drawn);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bins_are_powers_of_two),
+        cmocka_unit_test(few_facets_are_counted_and_many_are_smooth),
+        cmocka_unit_test(many_samples_allow_single_draws),
+        cmocka_unit_test(nothing_is_left_out_without_a_budget),
+        cmocka_unit_test(shadows_go_only_where_enough_rays_passed),
+        cmocka_unit_test(errors_stay_within_the_budget),
+        cmocka_unit_test(impossible_summaries_are_refused_by_name),
+        cmocka_unit_test(no_memory_is_said),
+        cmocka_unit_test(what_fades_never_varies_by_more_than_its_limit),
+        cmocka_unit_test(draws_vary_by_no_more_than_they_may),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,194 @@
+/* Prints one hash for each model of what the library gives for a large sweep of queries, and one for each vector width
+ * of the counting kernel, with traps for floating-point exceptions on. compilers.sh runs it as it was built by several
+ * compilers at several levels of optimisation: every build must print the same. */
+#define _GNU_SOURCE
+#include "traps.h"
+
+#include "exact_inputs.h"
+#include "model/counting_kernel.h"
+
+enum { EACH = 160, BATCH = 192 };
+
+static glint_area_light exact_light(uint64_t *random)
+{
+    glint_area_light l = { .kind = (glint_area_kind)(random_bits(random) % 5), .two_sided = 1U };
+    exact_direction(random, l.center);
+    const float size = exact_solid_angle(random);
+    l.solid_angle_sr = size;
+    l.radius = 0.5F * size;
+    for (int k = 0; k < 3; k++) {
+        l.half_x[k] = size * (float)random_between(random, -0.5, 0.5);
+        l.half_y[k] = size * (float)random_between(random, -0.5, 0.5);
+        l.corners[0][k] = l.center[k];
+        l.corners[1][k] = l.center[k] + l.half_x[k];
+        l.corners[2][k] = l.center[k] + l.half_y[k];
+    }
+    l.corner_count = 3;
+    return l;
+}
+
+static uint64_t hash_value(uint64_t hash, const glint_value *v)
+{
+    hash = hash_floats(hash, v->rgb, 3);
+    hash = hash_floats(hash, v->smooth, 3);
+    return hash_floats(hash, &v->facet_count, 2);
+}
+
+static uint64_t hash_queries(uint64_t hash, const glint_material *m, uint64_t *random)
+{
+    for (int i = 0; i < EACH; i++) {
+        float wo[3], wi[3], u[3], through[3];
+        exact_direction(random, wo);
+        exact_direction(random, wi);
+        for (int k = 0; k < 3; k++)
+            u[k] = (float)(random_bits(random) >> 40) * 0x1p-24F;
+        const glint_footprint f = exact_footprint(random);
+        const glint_light light = { GLINT_LIGHT_CAP, exact_solid_angle(random) };
+        glint_surface s = glint_material_surface(m);
+        s.alpha_x = ldexpf(1.0F, -(int)(random_bits(random) % 13));
+        s.alpha_y = i % 2 ? s.alpha_x : ldexpf(1.0F, -(int)(random_bits(random) % 13));
+        s.facets_per_m2 = ldexpf(1.0F, (int)(random_bits(random) % (i % 4 ? 24 : 60)));
+        const glint_surface *surface = i % 3 ? NULL : &s;
+        glint_value v;
+        glint_sample sample;
+        glint_eval_value(m, surface, &f, wo, wi, &light, &v);
+        hash = hash_value(hash, &v);
+        if (i % 4 == 0) {
+            const glint_area_light area = exact_light(random);
+            glint_eval_area(m, surface, &f, wo, &area, &v);
+            hash = hash_value(hash, &v);
+        }
+        glint_sample_direction(m, surface, &f, wo, u, &sample);
+        hash = hash_floats(hash, sample.wi, 7);
+        const float pdf = glint_pdf(m, surface, &f, wo, wi);
+        hash = hash_floats(hash, &pdf, 1);
+        glint_transmittance(m, NULL, wo, wi, through);
+        hash = hash_floats(hash, through, 3);
+    }
+    return hash;
+}
+
+static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *random)
+{
+    static double u[BATCH], v[BATCH];
+    static float step[4][BATCH], wo[3][BATCH], wi[3][BATCH], angle[BATCH], rgb[3][BATCH];
+    for (int i = 0; i < BATCH; i++) {
+        float o[3], w[3];
+        exact_direction(random, o);
+        exact_direction(random, w);
+        const glint_footprint f = exact_footprint(random);
+        u[i] = f.u;
+        v[i] = f.v;
+        step[0][i] = f.dudx;
+        step[1][i] = f.dudy;
+        step[2][i] = f.dvdx;
+        step[3][i] = f.dvdy;
+        for (int k = 0; k < 3; k++) {
+            wo[k][i] = o[k];
+            wi[k][i] = w[k];
+        }
+        angle[i] = exact_solid_angle(random);
+    }
+    const glint_batch b = { sizeof(b),
+                            BATCH,
+                            u,
+                            v,
+                            step[0],
+                            step[1],
+                            step[2],
+                            step[3],
+                            NULL,
+                            { wo[0], wo[1], wo[2] },
+                            { wi[0], wi[1], wi[2] },
+                            angle,
+                            NULL,
+                            { rgb[0], rgb[1], rgb[2] },
+                            NULL };
+    glint_eval_batch(m, &b);
+    for (int k = 0; k < 3; k++)
+        hash = hash_floats(hash, rgb[k], BATCH);
+    return hash;
+}
+
+static void print_model(glint_model model)
+{
+    uint64_t random = 51, hash = HASH_START;
+    for (int i = 0; i < CONFIGURATIONS; i++) {
+        const configuration c = configuration_of(model, i);
+        glint_material *m = create(&c.options);
+        hash = hash_queries(hash, m, &random);
+        hash = hash_batch(hash, m, &random);
+        glint_material_destroy(m);
+    }
+    printf("%-12s %016llx\n", glint_model_name(model), (unsigned long long)hash);
+}
+
+/* ---- the kernel ---- */
+
+enum { POINTS = 1 << 14 };
+
+static struct {
+    double u[POINTS], v[POINTS];
+    float dudx[POINTS], dudy[POINTS], dvdx[POINTS], dvdy[POINTS], density[POINTS], hx[POINTS], hy[POINTS], cap[POINTS],
+        p[POINTS];
+    uint32_t seed[POINTS];
+} a;
+
+static void fill_points(void)
+{
+    uint64_t random = 52;
+    for (int i = 0; i < POINTS; i++) {
+        const glint_footprint f = exact_footprint(&random);
+        const int far = (int)(random_bits(&random) % 36);
+        a.u[i] = ldexp(f.u, far);
+        a.v[i] = f.v;
+        a.dudx[i] = f.dudx;
+        a.dudy[i] = f.dudy;
+        a.dvdx[i] = f.dvdx;
+        a.dvdy[i] = ldexpf(f.dvdy, -(int)(random_bits(&random) % 20));
+        a.density[i] = ldexpf(1.0F, (int)(random_bits(&random) % 60));
+        a.hx[i] = (float)random_between(&random, -0.9, 0.9);
+        a.hy[i] = (float)random_between(&random, -0.4, 0.4);
+        a.cap[i] = ldexpf(1.0F, -(int)(random_bits(&random) % 40));
+        const int rare = -(int)(random_bits(&random) % 40);
+        a.p[i] = (float)ldexp(random_between(&random, 0.5, 1.0), rare);
+        if (i % 7 == 0)
+            a.p[i] = 1.0F - a.p[i];
+        a.seed[i] = f.seed;
+    }
+}
+
+/* Widths that this machine lacks are left out. */
+static void print_kernels(void)
+{
+    static const counting_points points = { a.u,       a.v,    a.dudx, a.dudy, a.dvdx, a.dvdy,
+                                            a.density, a.seed, a.hx,   a.hy,   a.cap,  a.p };
+    static float factor[3][POINTS], facets[POINTS];
+    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    o.color_variation = 0.5F;
+    const tint_palette palette = tint_palette_of(&o);
+    fill_points();
+    for (size_t lanes = 1; lanes <= 16; lanes *= 2) {
+        const counting_width w = counting_widest(lanes);
+        if (w.lanes != lanes)
+            continue;
+        w.kernel(&points, POINTS, factor[0], facets);
+        uint64_t hash = hash_floats(HASH_START, factor[0], POINTS);
+        hash = hash_floats(hash, facets, POINTS);
+        float *const factors[3] = { factor[0], factor[1], factor[2] };
+        w.tinted(&points, POINTS, &palette, factors, facets);
+        for (int k = 0; k < 3; k++)
+            hash = hash_floats(hash, factor[k], POINTS);
+        printf("lanes %-6zu %016llx\n", lanes, (unsigned long long)hash);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "traps") == 0)
+        feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    for (size_t i = 0; i < sizeof(MODELS) / sizeof(MODELS[0]); i++)
+        print_model(MODELS[i].model);
+    print_kernels();
+    return 0;
+}
