@@ -211,19 +211,23 @@ static int is_usable(const glint_footprint *f)
            is_below_d(f->u, 1e12) && is_below_d(f->v, 1e12);
 }
 
+/* Every number of a surface into its range, as clamp_to does, but all at once: as integers, floats that are not
+ * negative keep their order, negative ones are below, and NaNs above infinity. */
 static glint_surface clamp_surface(const glint_surface *s)
 {
-    glint_surface r;
-    r.alpha_x = clamp_to(s->alpha_x, LEAST_ALPHA, 1.0F);
-    r.alpha_y = clamp_to(s->alpha_y, LEAST_ALPHA, 1.0F);
-    for (int i = 0; i < 3; i++) {
-        r.diffuse[i] = clamp_to(s->diffuse[i], 0.0F, 1.0F);
-        r.f0[i] = clamp_to(s->f0[i], 0.0F, 1.0F);
-        r.f90[i] = clamp_to(s->f90[i], 0.0F, 1.0F);
+    static const glint_surface least = { LEAST_ALPHA, LEAST_ALPHA, { 0 }, { 0 }, { 0 }, 0.0F, 0.0F, NULL };
+    static const glint_surface most = { 1.0F, 1.0F, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, 1e18F, 1.0F, NULL };
+    enum { COUNT = offsetof(glint_surface, coat) / sizeof(int32_t) };
+    int32_t number[COUNT], low[COUNT], high[COUNT];
+    memcpy(number, s, sizeof(number));
+    memcpy(low, &least, sizeof(low));
+    memcpy(high, &most, sizeof(high));
+    for (int i = 0; i < COUNT; i++) {
+        const int32_t x = number[i] > 0x7f800000 ? low[i] : number[i], up = x > low[i] ? x : low[i];
+        number[i] = up < high[i] ? up : high[i];
     }
-    r.facets_per_m2 = clamp_to(s->facets_per_m2, 0.0F, 1e18F);
-    r.discreteness = clamp_to(s->discreteness, 0.0F, 1.0F);
-    r.coat = NULL;
+    glint_surface r = { .coat = NULL };
+    memcpy(&r, number, sizeof(number));
     return r;
 }
 

@@ -25,10 +25,38 @@ static const argument_rule rules[] = {
       .help = "folder for report.html, tables and figures; study",
       .kind = ARGUMENT_TEXT,
       .target = AT(output) },
+    { .name = "law",
+      .help = "the binomial law",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_LAW * sizeof(bool) },
     { .name = "lights",
-      .help = "lights of real size",
+      .help = "lights of real size: errors",
       .kind = ARGUMENT_FLAG,
       .target = AT(chosen) + STUDY_LIGHTS * sizeof(bool) },
+    { .name = "integrals",
+      .help = "lights of real size: ways to integrate",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_INTEGRALS * sizeof(bool) },
+    { .name = "look-ups",
+      .help = "how many of the 48 counts are looked up",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_LOOK_UPS * sizeof(bool) },
+    { .name = "models",
+      .help = "models against every facet",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_MODELS * sizeof(bool) },
+    { .name = "images",
+      .help = "whole images: error against seconds",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_IMAGES * sizeof(bool) },
+    { .name = "arithmetic",
+      .help = "float against double, exact bits against fused",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_ARITHMETIC * sizeof(bool) },
+    { .name = "memory",
+      .help = "bytes of tables and maps",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(chosen) + STUDY_MEMORY * sizeof(bool) },
     { .name = "quick",
       .help = "measure as much as a test has the time for",
       .kind = ARGUMENT_FLAG,
@@ -119,10 +147,34 @@ static bool all_hold(const study_series *s)
     return failed == 0;
 }
 
+/* A dial: its table, what to choose, and every setting by its cost. */
+static document *document_of_front(const study_front_table *t)
+{
+    document *const d = document_object(), *const settings = document_array();
+    document_set_text(d, "table", t->dial.table);
+    document_set_text(d, "cost", t->dial.cost);
+    document_set_text(d, "error", t->dial.error);
+    document_set_text(d, "choose", t->dial.choose);
+    for (int i = 0; i < t->count; ++i) {
+        document *const s = document_object();
+        document_set_text(s, "name", t->settings[i].name);
+        document_set_number(s, "cost", t->settings[i].cost);
+        document_set_number(s, "error", t->settings[i].error);
+        document_set_number(s, "error_bar", t->settings[i].bar);
+        document_set_boolean(s, "on_front", t->settings[i].on_front);
+        document_append(settings, s);
+    }
+    document_set(d, "settings", settings);
+    return d;
+}
+
 static document *document_of(const study_outcome *o)
 {
     document *const d = document_object(), *const notes = document_array(), *const checks = document_array(),
-                    *const tables = document_array(), *const figures = document_array();
+                    *const tables = document_array(), *const figures = document_array(),
+                    *const fronts = document_array();
+    for (size_t i = 0; i < o->front_count; ++i)
+        document_append(fronts, document_of_front(&o->fronts[i]));
     document_set_text(d, "name", o->study->name);
     document_set_text(d, "title", o->study->title);
     document_set_text(d, "truth", o->study->truth);
@@ -145,6 +197,7 @@ static document *document_of(const study_outcome *o)
     document_set(d, "checks", checks);
     document_set(d, "tables", tables);
     document_set(d, "figures", figures);
+    document_set(d, "fronts", fronts);
     return d;
 }
 

@@ -165,17 +165,14 @@ static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID
     share[3] = c_up;
 }
 
-/* What of x is above the largest integer below it, in [0, 1], and the low 32 bits of that integer; a hair below an
- * integer is the integer with 0 or the one below with 1. Adding 1.5 * 2^52 leaves the nearest integer in the low bits;
- * beyond 2^51 in size what comes out is no floor, but a number. */
+/* What of x is above the largest integer below it, in [0, 1], and the low 32 bits of that integer; an integer is itself
+ * with 0 or the one below with 1. Adding 1.5 * 2^52 leaves the nearest integer to x - 1/2 in the low bits; beyond 2^51
+ * in size what comes out is no floor, but a number. */
 static inline vfloat grid_fraction(vdouble x, vuint *integer)
 {
-    const vdouble shift = splat_d(6755399441055744.0), shifted = add_d(x, shift);
-    const vfloat from_nearest = narrow(subtract_d(x, subtract_d(shifted, shift)));
-    const vmask above = less(from_nearest, splat(0.0F));
-    *integer = low_word(shifted) + (vuint)mask_bits(above);
-    const vfloat fraction = from_nearest + choose(above, splat(1.0F), splat(0.0F));
-    return min_f(max_f(fraction, splat(0.0F)), splat(1.0F));
+    const vdouble shift = splat_d(6755399441055744.0), shifted = add_d(subtract_d(x, splat_d(0.5)), shift);
+    *integer = low_word(shifted);
+    return min_f(max_f(narrow(subtract_d(x, subtract_d(shifted, shift))), splat(0.0F)), splat(1.0F));
 }
 
 /* The triangle of one grid's lattice around (u, v): three cells and barycentric weights. */

@@ -1,20 +1,14 @@
 /* A light of real size as one point sees it: the convex cone of directions towards it, cut at the horizon. */
 #include "light/area.h"
 
+#include <string.h>
+
 #include "math/real.h"
 
 /* Of a light's own size: closer to the plane through it than this, the point sees it edge-on. */
 #define EDGE_ON 1e-9
 
 /* ---- polygons ---- */
-
-static double largest_coordinate(const vec3d *v, int count)
-{
-    double largest = 0.0;
-    for (int i = 0; i < count; i++)
-        largest = real_max(largest, real_max(fabs(v[i].x), real_max(fabs(v[i].y), fabs(v[i].z))));
-    return largest;
-}
 
 /* Twice the vector area (Newell). */
 static vec3d vector_area(const vec3d *v, int count)
@@ -69,18 +63,12 @@ static vec3d outward_moment(const vec3d *corner, int count)
     return vec3d_dot(moment, towards) < 0.0 ? vec3d_scale(moment, -1.0) : moment;
 }
 
-void area_take_corners(area_light *l, const vec3d *corner, int count)
+static int is_above(const vec3d *v, int count)
 {
-    l->kind = AREA_NOTHING;
-    l->corner_count = 0;
-    for (int i = 0; i < count; i++) {
-        const vec3d unit = vec3d_normalize(corner[i]);
-        if (vec3d_dot(unit, unit) > 0.5) /* not a corner at the point itself */
-            l->corner[l->corner_count++] = unit;
-    }
-    if (l->corner_count < 3)
-        return;
-    l->kind = AREA_POLYGON;
+    int above = 1;
+    for (int i = 0; i < count; i++)
+        above &= v[i].z >= 0.0;
+    return above;
 }
 
 void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_sided)
@@ -88,18 +76,17 @@ void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_si
     l->kind = AREA_NOTHING;
     if (count < 3 || count > AREA_MOST_CORNERS - 2)
         return;
-    const double largest = largest_coordinate(corner, count);
-    if (!(largest > 1e-30 && largest < 1e30))
+    const vec3d area = vector_area(corner, count);
+    const double height = vec3d_dot(area, corner[0]);
+    const double size2 = vec3d_dot(corner[0], corner[0]) + vec3d_dot(corner[2], corner[2]);
+    if (!(height * height > EDGE_ON * EDGE_ON * size2 * vec3d_dot(area, area)) || (!two_sided && height > 0.0))
         return;
-    vec3d v[AREA_MOST_CORNERS];
-    for (int i = 0; i < count; i++)
-        v[i] = vec3d_scale(corner[i], 1.0 / largest);
-    const vec3d area = vector_area(v, count);
-    const double height = vec3d_dot(area, v[0]), size = vec3d_length(area);
-    if (!(fabs(height) > EDGE_ON * size) || (!two_sided && height > 0.0))
-        return;
-    vec3d above[AREA_MOST_CORNERS];
-    area_take_corners(l, above, cut_at_horizon(v, count, above));
+    l->corner_count = count;
+    if (is_above(corner, count))
+        memcpy(l->corner, corner, (size_t)count * sizeof(corner[0]));
+    else
+        l->corner_count = cut_at_horizon(corner, count, l->corner);
+    l->kind = l->corner_count < 3 ? AREA_NOTHING : AREA_POLYGON;
 }
 
 void area_make_rectangle(area_light *l, vec3d center, vec3d half_x, vec3d half_y, int two_sided)
@@ -112,32 +99,31 @@ void area_make_rectangle(area_light *l, vec3d center, vec3d half_x, vec3d half_y
 
 /* ---- ellipses ---- */
 
-static void take_conic(area_light *l)
+static void take_cone(area_light *l)
 {
-    l->kind = conic_cut(&l->cone) ? AREA_CONIC : AREA_NOTHING;
+    const double reach = sqrt(l->span[1].z * l->span[1].z + l->span[2].z * l->span[2].z);
+    l->is_whole = l->span[0].z > reach;
+    l->kind = l->span[0].z > -reach ? AREA_CONIC : AREA_NOTHING;
+}
+
+void area_make_cone(area_light *l, vec3d center, vec3d half_x, vec3d half_y)
+{
+    l->span[0] = center;
+    l->span[1] = half_x;
+    l->span[2] = half_y;
+    l->has_axes = 0;
+    take_cone(l);
 }
 
 void area_make_ellipse(area_light *l, vec3d center, vec3d half_x, vec3d half_y, int two_sided)
 {
     l->kind = AREA_NOTHING;
-    const vec3d all[3] = { center, half_x, half_y };
-    const double largest = largest_coordinate(all, 3);
-    if (!(largest > 1e-30 && largest < 1e30))
+    const vec3d normal = vec3d_cross(half_x, half_y);
+    const double height = vec3d_dot(normal, center);
+    const double size2 = vec3d_dot(center, center) + vec3d_dot(half_x, half_x) + vec3d_dot(half_y, half_y);
+    if (!(height * height > EDGE_ON * EDGE_ON * size2 * vec3d_dot(normal, normal)) || (!two_sided && height > 0.0))
         return;
-    const vec3d c = vec3d_scale(center, 1.0 / largest), x = vec3d_scale(half_x, 1.0 / largest),
-                y = vec3d_scale(half_y, 1.0 / largest);
-    const vec3d normal = vec3d_cross(x, y);
-    const double height = vec3d_dot(normal, c), size = vec3d_length(normal);
-    if (!(fabs(height) > EDGE_ON * size) || (!two_sided && height > 0.0))
-        return;
-    area_take_cone(l, c, x, y);
-}
-
-void area_take_cone(area_light *l, vec3d middle, vec3d half_x, vec3d half_y)
-{
-    l->kind = AREA_NOTHING;
-    if (conic_make(&l->cone, middle, half_x, half_y))
-        take_conic(l);
+    area_make_cone(l, center, half_x, half_y);
 }
 
 void area_make_round(area_light *l, vec3d axis, double sine, double cosine)
@@ -149,13 +135,39 @@ void area_make_round(area_light *l, vec3d axis, double sine, double cosine)
         return;
     const vec3d u = vec3d_any_normal(axis);
     l->cone = (conic){ .axis_x = u, .axis_y = vec3d_cross(axis, u), .axis_z = axis, .a = sine / c, .b = sine / c };
-    take_conic(l);
+    l->span[0] = axis;
+    l->span[1] = vec3d_scale(l->cone.axis_x, l->cone.a);
+    l->span[2] = vec3d_scale(l->cone.axis_y, l->cone.b);
+    l->has_axes = 1;
+    take_cone(l);
+}
+
+/* Its axes, and the part above the horizon. */
+static int measure_cone(area_light *l)
+{
+    l->has_axes = l->has_axes || conic_make(&l->cone, l->span[0], l->span[1], l->span[2]);
+    return l->has_axes && conic_cut(&l->cone);
 }
 
 /* ---- queries ---- */
 
+/* Makes the corners unit and drops those at the point itself. */
+static int measure_corners(area_light *l)
+{
+    int count = 0;
+    for (int i = 0; i < l->corner_count; i++) {
+        const vec3d unit = vec3d_normalize(l->corner[i]);
+        if (vec3d_dot(unit, unit) > 0.5)
+            l->corner[count++] = unit;
+    }
+    l->corner_count = count;
+    return count >= 3;
+}
+
 int area_measure(area_light *l)
 {
+    if ((l->kind == AREA_CONIC && !measure_cone(l)) || (l->kind == AREA_POLYGON && !measure_corners(l)))
+        l->kind = AREA_NOTHING;
     if (l->kind == AREA_NOTHING)
         return 0;
     l->moment = l->kind == AREA_CONIC ? conic_moment(&l->cone) : outward_moment(l->corner, l->corner_count);

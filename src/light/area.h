@@ -21,8 +21,11 @@ typedef enum area_kind { AREA_NOTHING = 0, AREA_POLYGON, AREA_CONIC } area_kind;
 typedef struct area_light {
     area_kind kind;
     int corner_count;
-    vec3d corner[AREA_MOST_CORNERS]; /* unit vectors in one sense of rotation */
-    conic cone;
+    vec3d corner[AREA_MOST_CORNERS]; /* above the horizon in one sense of rotation; unit from area_measure on */
+    vec3d span[3];                   /* of a cone over an ellipse: towards its middle, and the half axes from there */
+    int is_whole;                    /* that cone lies above the horizon */
+    int has_axes;                    /* and its axes are known */
+    conic cone;                      /* from area_measure */
     vec3d moment; /* from area_measure: integral of the direction over the light, sr; z: of the cosine */
     vec3d middle; /* from area_measure: a unit direction well within the light */
 } area_light;
@@ -38,13 +41,11 @@ void area_make_ellipse(area_light *light, vec3d center, vec3d half_x, vec3d half
 /* A round cone of directions around the unit vector `axis`; the sine and cosine of its angular radius, >= 0. */
 void area_make_round(area_light *light, vec3d axis, double sine, double cosine);
 
-/* From directions of any length: corners above the horizon in order, or a cone's middle and half axes, to be cut there.
- */
-void area_take_corners(area_light *light, const vec3d *corner, int count);
-void area_take_cone(area_light *light, vec3d middle, vec3d half_x, vec3d half_y);
+/* The cone over center + x half_x + y half_y, x^2 + y^2 <= 1, directions of any length. */
+void area_make_cone(area_light *light, vec3d center, vec3d half_x, vec3d half_y);
 
-/* Fills in moment and middle, which most of what follows needs. 0, and AREA_NOTHING: the light is too small to have
- * them. */
+/* Makes corners unit and fills in cone, moment and middle, which what follows needs. 0, and AREA_NOTHING: the light is
+ * too small to have them. */
 int area_measure(area_light *light);
 
 /* Whether a measured light lies in this direction (any length). */

@@ -53,10 +53,11 @@ static double negative_eigenvalue(const dual *k)
         const double slope = (3.0 * e - 2.0 * trace) * e + minors;
         if (!(value < 0.0) || !(slope > 0.0))
             break;
-        const double next = e - value / slope;
-        if (!(next > e))
+        const double step = -value / slope;
+        e += step;
+        /* The root is simple, and a step squares what is left. */
+        if (!(step > -1e-8 * e))
             break;
-        e = next;
     }
     return e;
 }
@@ -72,14 +73,22 @@ static vec3d kernel_of(vec3d x, vec3d y, vec3d z)
     return vec3d_normalize(n[best]);
 }
 
-int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
+/* The cone does not change when all three are scaled. 0: they are no numbers to speak of. */
+static int dual_of(vec3d center, vec3d half_x, vec3d half_y, dual *k)
 {
-    /* The cone does not change when all three are scaled. */
     const double size2 = vec3d_dot(center, center) + vec3d_dot(half_x, half_x) + vec3d_dot(half_y, half_y);
     if (!(size2 > 1e-60 && size2 < 1e60))
         return 0;
     const double scale = 1.0 / sqrt(size2);
-    const dual k = { vec3d_scale(half_x, scale), vec3d_scale(half_y, scale), vec3d_scale(center, scale) };
+    *k = (dual){ vec3d_scale(half_x, scale), vec3d_scale(half_y, scale), vec3d_scale(center, scale) };
+    return 1;
+}
+
+int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y)
+{
+    dual k;
+    if (!dual_of(center, half_x, half_y, &k))
+        return 0;
     const double negative = negative_eigenvalue(&k);
     if (!(negative < -1e-30))
         return 0;
@@ -185,4 +194,27 @@ vec3d conic_moment(const conic *c)
     const double cross = from.x * way.y - from.y * way.x, along = from.x * way.x + from.y * way.y;
     const vec3d line = { 0.0, 0.0, 0.5 * real_atan2(cross, from.x * from.x + from.y * from.y + along) };
     return vec3d_add(arc, line);
+}
+
+vec3d conic_whole_moment(vec3d center, vec3d half_x, vec3d half_y)
+{
+    /* Eigenvalues -m, p and q of K: the moment is pi sqrt(p q / ((m + p) (m + q))) times the axis, whose products z z,
+     * z x and z y are minors of K + m over (m + p) (m + q). p q = volume^2 / m. */
+    const vec3d nothing = { 0.0, 0.0, 0.0 };
+    dual k;
+    if (!dual_of(center, half_x, half_y, &k))
+        return nothing;
+    const double m = -negative_eigenvalue(&k);
+    if (!(m > 1e-30))
+        return nothing;
+    vec3d x = dual_row(&k, k.a.x, k.b.x, k.c.x), y = dual_row(&k, k.a.y, k.b.y, k.c.y);
+    const double zz = k.a.z * k.a.z + k.b.z * k.b.z - k.c.z * k.c.z;
+    const double volume = vec3d_dot(k.a, vec3d_cross(k.b, k.c)), both = volume * volume / m;
+    const double sums = m * (x.x + y.y + zz + 2.0 * m) + both;
+    x.x += m;
+    y.y += m;
+    const vec3d minors = vec3d_cross(x, y);
+    if (!(sums > 0.0) || !(minors.z > 0.0))
+        return nothing;
+    return vec3d_scale(minors, REAL_PI * sqrt(both / minors.z) / sums);
 }

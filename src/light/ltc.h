@@ -27,11 +27,19 @@ typedef struct ltc {
 /* wo.z > 0. */
 ltc ltc_find(ndf_kind kind, double alpha, vec3d wo);
 
-/* The light, moved, and measured. 0: too small for that. */
-int ltc_move(const ltc *l, const area_light *light, area_light *moved);
+/* A light with its directions moved, where the lobe is a cosine. */
+typedef struct ltc_light {
+    double share;   /* of the lobe that it takes in, in [0, 1] */
+    vec3d middle;   /* a unit direction well within */
+    int side_count; /* straight sides of the rim, from a corner to the next */
+    vec3d corner[AREA_MOST_CORNERS + 1], normal[AREA_MOST_CORNERS]; /* unit; corner i x corner i + 1 */
+    int arc_count; /* and arcs of span 0 + cos t span 1 + sin t span 2, one after the other */
+    vec3d span[3];
+    double arc[CONIC_ARCS][2]; /* cos t and sin t where they begin */
+    double half_turns;         /* the length of each in t, over pi */
+} ltc_light;
 
-/* Density of the lobe, per steradian, over the unit direction's cosine: its integral over the light is
- * moved.moment.z / pi. */
-double ltc_density_over_cosine(const ltc *l, vec3d direction);
+/* Of a light that need not have been measured. 0: it is too small. */
+int ltc_move(const ltc *l, const area_light *light, ltc_light *moved);
 
 #endif

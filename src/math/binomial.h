@@ -17,8 +17,10 @@
 #include "math/elementary.h"
 
 /* Below this mean the survival function is walked, above it a Cornish-Fisher expansion of the normal quantile is used.
- */
+ * Another one may be given before: the study of the law asks what it costs. */
+#if !defined(BINOMIAL_WALK_MEAN)
 #define BINOMIAL_WALK_MEAN 8.0F
+#endif
 #define BINOMIAL_WALK_STEPS 32
 
 /* What depends on p alone. */

@@ -8,12 +8,6 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 
-ndf lobe_ndf(const model_query *q)
-{
-    return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
-                  q->surface->alpha_x, q->surface->alpha_y };
-}
-
 float lobe_facet_reflectance(const model_query *q, int channel, float cosine)
 {
     const glint_material_options *o = &q->material->options;

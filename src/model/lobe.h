@@ -17,7 +17,11 @@ typedef struct lobe_value {
 } lobe_value;
 
 /* The distribution of the facets at this point. */
-ndf lobe_ndf(const model_query *q);
+static inline ndf lobe_ndf(const model_query *q)
+{
+    return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
+                  q->surface->alpha_x, q->surface->alpha_y };
+}
 
 /* F of one facet, for the cosine in [0, 1] between a direction and its normal. */
 float lobe_facet_reflectance(const model_query *q, int channel, float cosine);

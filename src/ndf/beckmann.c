@@ -3,22 +3,9 @@
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
+#include "ndf/beckmann_masked.h"
 
 #define SQRT_PI 1.77245385F
-
-/* exp(x^2) erfc(x) for x >= 0, where erfc alone underflows; relative error below 3e-7. A fit of degree 10 in
- * t = 2.5 / (2.5 + x), weighted by the function itself. */
-static float erfcx_f(float x)
-{
-    const float t = 2.5F / (2.5F + x);
-    static const float c[11] = { 0.225675833F,  0.225676081F,  0.207608054F,   0.171802345F,
-                                 0.118634124F,  0.0852281591F, -0.0497441414F, 0.141435464F,
-                                 -0.238736198F, 0.141926705F,  -0.0295064323F };
-    float p = c[10];
-    for (int i = 9; i >= 0; i--)
-        p = p * t + c[i];
-    return p * t;
-}
 
 /* 1 + erf(x). */
 static float one_plus_erf(float x)
@@ -37,13 +24,8 @@ float beckmann_density(float alpha_x, float alpha_y, vec3 h)
 
 float beckmann_masked(float alpha_x, float alpha_y, vec3 v)
 {
-    /* cos Lambda = (s exp(-a^2) / sqrt(pi) - cos erfc(a)) / 2 with a = cos / s. */
     const float x = alpha_x * v.x, y = alpha_y * v.y;
-    const float s = sqrtf(x * x + y * y);
-    if (!(v.z < 9.0F * s)) /* exp(-81): nothing is masked */
-        return 0.0F;
-    const float a = v.z / s;
-    return fmaxf(0.0F, 0.5F * exp_negative(-a * a) * (s / SQRT_PI - v.z * erfcx_f(a)));
+    return beckmann_masked_at(sqrtf(x * x + y * y), v.z);
 }
 
 float beckmann_tail_area(float alpha, float w)

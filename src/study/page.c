@@ -1,4 +1,4 @@
-/* The report of the studies: one page beside the figures and tables that it shows. */
+/* The report of the studies: one page that holds its figures, and names the tables beside it. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +9,9 @@
 
 /* study_page.css, made into text by the build. */
 extern const unsigned char study_page_css[];
+
+/* Bytes of a figure that the page takes in. */
+enum { MOST_CURVES = 400000, MOST_PIXELS = 4000000 };
 
 static void put(output_file *f, const char *text)
 {
@@ -36,17 +39,74 @@ static void put_between(output_file *f, const char *before, const char *text, co
     put(f, after);
 }
 
-static void put_figures(output_file *f, const study_outcome *o)
+/* The file FOLDER/NAME.ENDING if it has at most so many bytes, else NULL. */
+static FILE *open_small(const char *folder, const char *name, const char *ending, long most)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
+    FILE *const from = fopen(path, "rb");
+    if (from && fseek(from, 0, SEEK_END) == 0 && ftell(from) <= most) {
+        rewind(from);
+        return from;
+    }
+    if (from)
+        fclose(from);
+    return NULL;
+}
+
+static void put_base64(output_file *f, FILE *from)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned char in[3];
+    for (size_t n = fread(in, 1, 3, from); n > 0; n = fread(in, 1, 3, from)) {
+        const unsigned bits = (unsigned)in[0] << 16 | (n > 1 ? (unsigned)in[1] << 8 : 0U) | (n > 2 ? in[2] : 0U);
+        const char out[4] = { digit[bits >> 18], digit[bits >> 12 & 63U], (char)(n > 1 ? digit[bits >> 6 & 63U] : '='),
+                              (char)(n > 2 ? digit[bits & 63U] : '=') };
+        output_file_write(f, out, sizeof out);
+    }
+}
+
+/* The page holds its figures: as curves, or as pixels where the curves are too many. */
+static void put_picture(output_file *f, const char *folder, const char *name)
+{
+    FILE *from = open_small(folder, name, "svg", MOST_CURVES);
+    put(f, from ? "data:image/svg+xml;base64," : "data:image/png;base64,");
+    if (!from)
+        from = open_small(folder, name, "png", MOST_PIXELS);
+    if (from) {
+        put_base64(f, from);
+        fclose(from);
+    }
+}
+
+static void put_figures(output_file *f, const char *folder, const study_outcome *o)
 {
     for (const study_figure *figure = o->study->figures; figure && figure->name && o->has_figures; ++figure) {
-        put_between(f, "<figure><a href=\"", figure->name, ".svg\">");
-        put_between(f, "<img src=\"", figure->name, ".svg\" alt=\"");
-        put_between(f, "", figure->caption, "\"></a>");
+        put_between(f, "<figure><a href=\"", figure->name, ".svg\"><img src=\"");
+        put_picture(f, folder, figure->name);
+        put_between(f, "\" alt=\"", figure->caption, "\"></a>");
         put_between(f, "<figcaption>", figure->caption, "</figcaption></figure>\n");
     }
 }
 
-static void put_study(output_file *f, const study_outcome *o)
+/* The settings of a dial; those on the front stand out. */
+static void put_front(output_file *f, const study_front_table *t)
+{
+    char cells[160];
+    put_between(f, "<table><caption>", t->dial.title, "");
+    put_between(f, " <strong>", t->dial.choose, "</strong></caption>\n<tr><th>Setting</th><th>");
+    put_between(f, "", t->dial.cost, "</th><th>");
+    put_between(f, "", t->dial.error, "</th></tr>\n");
+    for (int i = 0; i < t->count; ++i) {
+        const study_setting *const s = &t->settings[i];
+        put_between(f, s->on_front ? "<tr class=\"front\"><td>" : "<tr><td>", s->name, "</td>");
+        snprintf(cells, sizeof cells, "<td>%.4g</td><td>%.3g ± %.1g</td></tr>\n", s->cost, s->error, s->bar);
+        put(f, cells);
+    }
+    put(f, "</table>\n");
+}
+
+static void put_study(output_file *f, const char *folder, const study_outcome *o)
 {
     char took[64];
     snprintf(took, sizeof took, " (%.1f s)", o->elapsed_s);
@@ -60,7 +120,9 @@ static void put_study(output_file *f, const study_outcome *o)
         put_between(f, "", line->text, "</li>\n");
     }
     put(f, "</ul>\n");
-    put_figures(f, o);
+    put_figures(f, folder, o);
+    for (size_t i = 0; i < o->front_count; ++i)
+        put_front(f, &o->fronts[i]);
     put(f, "<p class=\"tables\">Tables:");
     for (size_t i = 0; i < o->table_count; ++i) {
         put_between(f, " <a href=\"", o->tables[i], "\">");
@@ -86,7 +148,7 @@ bool study_write_page(const study_options *options, const study_outcome *outcome
     put_between(f, "</style>\n</head>\n<body>\n<h1>What accuracy costs, and how far off it is</h1>\n<p>libglint ",
                 glint_version(), options->quick ? ", a quick run: few samples, wide bounds.</p>\n" : ".</p>\n");
     for (size_t i = 0; i < count; ++i)
-        put_study(f, &outcomes[i]);
+        put_study(f, options->folder, &outcomes[i]);
     put(f, "</body>\n</html>\n");
     return output_file_commit(f, r);
 }

@@ -1,5 +1,5 @@
 /* A study while it runs: its tables, its sentences, its bounds, and the first thing that went wrong. */
-#include "study/study.h"
+#include "study/outcome.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -164,6 +164,21 @@ void study_check(study_run *run, bool holds, const char *format, ...)
     run->out->failed += !holds;
 }
 
+void outcome_add_front(study_run *run, const study_dial *dial, const study_setting *settings, int count)
+{
+    study_outcome *const out = run->out;
+    study_front_table *const more = realloc(out->fronts, (out->front_count + 1) * sizeof *more);
+    study_setting *const copy = malloc((size_t)count * sizeof *copy);
+    out->fronts = more ? more : out->fronts;
+    if (!more || !copy) {
+        free(copy);
+        fail_for_memory(run);
+        return;
+    }
+    memcpy(copy, settings, (size_t)count * sizeof *copy);
+    more[out->front_count++] = (study_front_table){ *dial, copy, count };
+}
+
 glint_material *study_material(study_run *run, const glint_material_options *options)
 {
     glint_material *material = NULL;
@@ -206,6 +221,9 @@ void study_outcome_free(study_outcome *outcome)
         free(outcome->lines[i].text);
     for (size_t i = 0; i < outcome->table_count; ++i)
         free(outcome->tables[i]);
+    for (size_t i = 0; i < outcome->front_count; ++i)
+        free(outcome->fronts[i].settings);
+    free(outcome->fronts);
     free(outcome->lines);
     free(outcome->tables);
     *outcome = (study_outcome){ 0 };

@@ -51,6 +51,29 @@ void study_end_table(study_run *run);
 void study_note(study_run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A bound, and the sentence that says what was found. */
 void study_check(study_run *run, bool holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* ---- dials: what a setting costs and how far off it is ---- */
+
+typedef struct study_setting {
+    const char *name; /* kept by the caller until the study ends */
+    double cost, error;
+    double bar;    /* of the error: one standard deviation of its estimate */
+    bool on_front; /* out: no other setting costs less and is nearer */
+} study_setting;
+
+typedef struct study_dial {
+    const char *table;       /* NAME.csv */
+    const char *title;       /* of the table in the report */
+    const char *cost, *unit; /* "ns a draw", and the column "cost_ns" */
+    const char *error;       /* what the error is */
+    const char *choose;      /* which setting to take, in one sentence */
+} study_dial;
+
+/* Marks the front, writes the table, and shows it in the report. */
+void study_front(study_run *run, const study_dial *dial, study_setting *settings, int count);
+
+/* Seconds of processor time of all threads, which do not grow when another program runs beside. */
+double study_cpu_s(void);
+
 /* glint_material_create; NULL is a failure. */
 glint_material *study_material(study_run *run, const glint_material_options *options);
 
@@ -60,7 +83,17 @@ report *study_report(study_run *run);
 
 /* ---- what the command calls ---- */
 
-enum { STUDY_LIGHTS, STUDY_COUNT };
+enum {
+    STUDY_LAW,
+    STUDY_LIGHTS,
+    STUDY_INTEGRALS,
+    STUDY_LOOK_UPS,
+    STUDY_MODELS,
+    STUDY_IMAGES,
+    STUDY_ARITHMETIC,
+    STUDY_MEMORY,
+    STUDY_COUNT
+};
 
 extern const study *const studies[STUDY_COUNT];
 
@@ -78,6 +111,13 @@ typedef struct study_line {
     bool is_check, holds;
 } study_line;
 
+/* A dial as the report shows it. */
+typedef struct study_front_table {
+    study_dial dial;
+    study_setting *settings; /* by cost */
+    int count;
+} study_front_table;
+
 /* What a study found. */
 typedef struct study_outcome {
     const study *study;
@@ -87,6 +127,8 @@ typedef struct study_outcome {
     size_t line_count;
     char **tables; /* names of files in the folder */
     size_t table_count;
+    study_front_table *fronts;
+    size_t front_count;
     bool has_figures;
 } study_outcome;
 

@@ -4,7 +4,9 @@
     blender -b --factory-startup --python-exit-code 3 -P test_x.py -- FOLDER
 """
 
+import json
 import os
+import struct
 import sys
 import unittest
 
@@ -29,6 +31,43 @@ def folder():
     path = sys.argv[sys.argv.index("--") + 1]
     os.makedirs(path, exist_ok=True)
     return path
+
+
+def new_material(name="flakes"):
+    """Worn by a new mesh, which is the active object."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    mesh_object().data.materials.append(material)
+    return material
+
+
+def mesh_object():
+    """A square metre with a UV map, active."""
+    bpy.ops.mesh.primitive_plane_add(size=1.0)
+    return bpy.context.object
+
+
+def operate(operator, material, **settings):
+    """Runs an operator as the panel does: with the material in its context."""
+    with bpy.context.temp_override(material=material):
+        return operator(**settings)
+
+
+def read_json(path):
+    """The JSON chunk of a .glb file."""
+    with open(path, "rb") as file:
+        header = file.read(20)
+        length = struct.unpack("<I", header[12:16])[0]
+        return json.loads(file.read(length))
+
+
+def export(name):
+    """Writes the scene; returns the file's path and its JSON."""
+    from glint import compat
+
+    path = os.path.join(folder(), name)
+    compat.export_gltf(path, export_lights=True, export_cameras=True)
+    return path, read_json(path)
 
 
 def run(*cases):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a glTF scene for flake-by-flake comparison: a plane or a sphere of white mirrors under a sun. Plain Python.
+"""Writes a glTF scene that Cycles and libglint can both show: a plane or a sphere of white mirrors under one light. Plain Python.
 
-    python3 flake_scene.py OUT.glb SHAPE DISTRIBUTION [LIGHT]     plane|sphere, ggx|beckmann, sun|rect
+    python3 flake_scene.py OUT.glb SHAPE DISTRIBUTION [LIGHT]     plane|sphere, ggx|beckmann, sun|rect|far
 """
 
 import json
@@ -14,7 +14,11 @@ FACET_ROUGHNESS = 0.1414213562  # alpha .02
 # Flakes per square of the UV map. The picture shows half a metre: at 96 pixels some seven a pixel on the plane, and one in
 # the middle of the sphere but far more at its edge.
 CELLS = {"plane": 512.0, "sphere": 256.0}
-SUN_RAD = math.radians(2.0)
+# Of a sun the angle, of a rectangle width and height over its distance. "far" is a square so far away that every point of the
+# plane sees it alike, and so wide that a pixel of the middle of the highlight expects facets to be lit in numbers.
+LIGHT_SIZES = {"sun": (math.radians(2.0),), "rect": (0.07, 0.035), "far": (0.3, 0.3)}
+VIEW_RAD = math.radians(15.0)
+LIGHT_DISTANCES = {"sun": 2.0, "rect": 2.0, "far": 500.0}
 
 
 def plane():
@@ -58,13 +62,21 @@ def node_looking(theta, distance, **content):
     }
 
 
-def light_of(kind, intensity, sun_rad):
+def light_of(kind):
+    """The extension's name, what it lists, and how far away the light is, metres."""
+    distance = LIGHT_DISTANCES[kind]
     if kind == "sun":
-        return {"type": "directional", "intensity": intensity, "extras": {"angularDiameter": sun_rad}}
-    raise ValueError(f"light '{kind}': expected sun")
+        sun = {"type": "directional", "intensity": 1.0, "extras": {"angularDiameter": LIGHT_SIZES[kind][0]}}
+        return "KHR_lights_punctual", sun, distance
+    width, height = LIGHT_SIZES[kind]
+    radiance = 1.0 / (width * height)  # an irradiance of about 1
+    rect = {"type": "rect", "intensity": radiance, "size": height * distance, "rect": {"aspect": width / height}}
+    return "EXT_lights_area", rect, distance
 
 
-def scene(shape, distribution, light="sun", sun_rad=SUN_RAD, facet_roughness=FACET_ROUGHNESS):
+def scene(shape, distribution, light="sun", cells=None, seed=5, facet_roughness=FACET_ROUGHNESS):
+    cells = cells or CELLS[shape]
+    extension, content, distance = light_of(light)
     positions, normals, uv, indices = {"plane": plane, "sphere": sphere}[shape]()
     count = len(positions)
     low = [min(p[i] for p in positions) for i in range(3)]
@@ -77,22 +89,22 @@ def scene(shape, distribution, light="sun", sun_rad=SUN_RAD, facet_roughness=FAC
     offsets = [sum(sizes[:i]) for i in range(4)]
     document = {
         "asset": {"version": "2.0"},
-        "extensionsUsed": ["KHR_lights_punctual", "GLINT_materials_glint"],
-        "extensions": {"KHR_lights_punctual": {"lights": [light_of(light, 1.0, sun_rad)]}},
+        "extensionsUsed": [extension, "GLINT_materials_glint"],
+        "extensions": {extension: {"lights": [content]}},
         "scene": 0,
         "scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [
             {"mesh": 0, "name": shape},
-            node_looking(math.radians(15.0), 2.0, camera=0, name="Camera"),
-            node_looking(math.radians(-10.0), 2.0, extensions={"KHR_lights_punctual": {"light": 0}}, name="Light"),
+            node_looking(VIEW_RAD, 2.0, camera=0, name="Camera"),
+            node_looking(math.radians(-10.0), distance, extensions={extension: {"light": 0}}, name="Light"),
         ],
         "cameras": [{"type": "orthographic", "orthographic": {"xmag": 0.25, "ymag": 0.25, "znear": 0.1, "zfar": 10.0}}],
         "materials": [{
             "name": "flakes",
             "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": ROUGHNESS},
             "extensions": {"GLINT_materials_glint": {
-                "glintFactor": 1, "glintDistribution": distribution, "glintDensity": CELLS[shape] ** 2,
-                "glintFacetRoughness": facet_roughness, "glintSeed": 5,
+                "glintFactor": 1, "glintDistribution": distribution, "glintDensity": cells**2,
+                "glintFacetRoughness": facet_roughness, "glintSeed": seed,
             }},
         }],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}],

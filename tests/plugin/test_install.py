@@ -7,6 +7,7 @@ BLENDER_USER_SCRIPTS must point into FOLDER, which is where Blender then puts it
 """
 
 import os
+import subprocess
 import sys
 
 import bpy
@@ -21,6 +22,15 @@ assert os.path.realpath(glint.__file__).startswith(os.path.realpath(folder)), gl
 assert "glint" in bpy.context.preferences.addons
 names = presets.available()
 assert len(names) >= 8 and all(path.startswith(os.path.dirname(glint.__file__)) for path in names.values()), names
+
+assert os.path.isfile(os.path.join(os.path.dirname(glint.__file__), "blender_manifest.toml"))
+from glint import preferences  # noqa: E402
+
+command = preferences.find_command(bpy.context)
+own = os.path.join(os.path.dirname(os.path.realpath(glint.__file__)), "bin", "glint")
+# ./dev addon packs the command where it has been built; it must run after Blender has unpacked it.
+if os.path.isfile(own):
+    assert command == own and "glint" in subprocess.run([command, "--version"], capture_output=True, text=True).stdout
 
 material = bpy.data.materials.new("snow")
 material.use_nodes = True

@@ -15,12 +15,10 @@ bl_info = {
     "category": "Material",
 }
 
-import bpy
-
-from . import engine, gltf, panel, presets, properties, render_settings
+from . import engine, jobs, nodes, panel, preferences, presets, properties, render_settings
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
 
-MODULES = (properties, presets, panel, render_settings, engine)
+MODULES = (preferences, properties, nodes, presets, jobs, panel, render_settings, engine)
 
 
 def register():

@@ -9,6 +9,10 @@ NAME = "EXT_lights_area"
 
 ROUND = {"DISK", "ELLIPSE"}
 
+# Cycles gives an area light of power P and area A the radiance P / (4 A), not a Lambertian emitter's P / (pi A): measured
+# by tests/plugin/test_cycles_flakes.py.
+WATTS_PER_RADIANCE = 4.0
+
 
 def sides(light):
     """Width and height; Blender's second size counts for two of its shapes only."""
@@ -29,8 +33,7 @@ def of_light(light):
         "type": "disk" if is_round else "rect",
         "name": light.name,
         "color": list(light.color),
-        # A Lambertian emitter of power P and area A has the radiance P / (pi A).
-        "intensity": light.energy / (math.pi * area(width, height, is_round)),
+        "intensity": light.energy / (WATTS_PER_RADIANCE * area(width, height, is_round)),
         "size": height,
     }
     if width != height:
@@ -49,7 +52,7 @@ def add(content, parent, gltf):
     light.shape = ("ELLIPSE" if width != height else "DISK") if is_round else "RECTANGLE"
     light.size, light.size_y = width, height
     light.color = content.get("color", [1.0, 1.0, 1.0])
-    light.energy = content.get("intensity", 1000.0) * math.pi * area(width, height, is_round)
+    light.energy = content.get("intensity", 1000.0) * WATTS_PER_RADIANCE * area(width, height, is_round)
     made = bpy.data.objects.new(parent.name, light)
     made.parent = parent
     # The importer turns y up into z up; a light then looks along its own y.

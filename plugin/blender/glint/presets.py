@@ -6,7 +6,7 @@ import os
 
 import bpy
 
-from . import extension, principled
+from . import extension, nodes, principled, textures
 
 SUFFIX = ".gltf-material.json"
 
@@ -29,42 +29,36 @@ def available():
     return dict(sorted(found.items()))
 
 
-def _set(node, names, value):
-    for name in names:
-        if name in node.inputs:
-            node.inputs[name].default_value = value
-            return
-
-
-def apply(material, preset):
-    """Sets the Principled BSDF and the property group from a glTF material object."""
+def apply(material, preset, path=""):
+    """Sets the Principled BSDF and the property group from a glTF material object, the preset at path."""
     material.use_nodes = True
-    node = principled.find(material)
-    base = preset.get("pbrMetallicRoughness", {})
-    if node is not None:
-        _set(node, ("Base Color",), base.get("baseColorFactor", [1.0] * 4))
-        _set(node, ("Metallic",), base.get("metallicFactor", 1.0))
-        _set(node, ("Roughness",), base.get("roughnessFactor", 1.0))
-        coat = preset.get("extensions", {}).get("KHR_materials_clearcoat", {})
-        _set(node, ("Clearcoat", "Coat Weight"), coat.get("clearcoatFactor", 0.0))
-        _set(node, ("Clearcoat Roughness", "Coat Roughness"), coat.get("clearcoatRoughnessFactor", 0.0))
-    extension.apply(preset.get("extensions", {}).get(extension.NAME, {}), material.glint)
+    with nodes.one_change(material):
+        node = principled.find(material)
+        if node is not None:
+            principled.apply(node, material.glint, preset)
+        extension.apply_material(preset.get("extensions", {}), material.glint, textures.preset_reader(preset, path))
 
 
 def of_material(material):
-    """A glTF material object that apply() turns into this material again."""
-    node = principled.find(material)
+    """A glTF material object that apply() turns into this material again, pictures inside."""
+    node, writer = principled.find(material), textures.PresetWriter()
     preset = {"name": material.name}
     if node is not None:
-        value = principled.input_value
-        preset["pbrMetallicRoughness"] = {
-            "baseColorFactor": [round(c, 6) for c in value(node, ("Base Color",), (1.0,) * 4)],
-            "metallicFactor": round(value(node, ("Metallic",), 0.0), 6),
-            "roughnessFactor": round(value(node, ("Roughness",), 0.5), 6),
-        }
-    preset["extensions"] = {extension.NAME: extension.from_values(material.glint)}
-    preset["extras"] = {"title": material.name, "note": "Saved from Blender."}
+        preset.update(principled.to_gltf(node, material.glint))
+    extensions = preset.setdefault("extensions", {})
+    own, coat = extension.of_material(material.glint, writer.info)
+    if own is not None:
+        extensions[extension.NAME] = own
+    if coat is not None:
+        extensions.setdefault(extension.COAT, {"clearcoatFactor": 0.0})["extensions"] = {extension.NAME: coat}
+    preset["extras"] = {"title": material.name, **writer.extras(), "note": "Saved from Blender."}
     return preset
+
+
+def textured_inputs(material):
+    """Names of inputs of the Principled BSDF that something is linked to: a preset keeps their constants only."""
+    node = principled.find(material)
+    return [socket.name for socket in node.inputs if socket.is_linked] if node is not None else []
 
 
 class GLINT_OT_apply_preset(bpy.types.Operator):
@@ -86,8 +80,8 @@ class GLINT_OT_apply_preset(bpy.types.Operator):
             return {"CANCELLED"}
         try:
             with open(path, encoding="utf-8") as file:
-                apply(context.material, json.load(file))
-        except (OSError, ValueError, TypeError) as problem:
+                apply(context.material, json.load(file), path)
+        except (OSError, ValueError, TypeError, LookupError) as problem:
             self.report({"ERROR"}, f"{path}: {problem}")
             return {"CANCELLED"}
         return {"FINISHED"}
@@ -114,14 +108,19 @@ class GLINT_OT_save_preset(bpy.types.Operator):
             self.report({"ERROR"}, f"'{self.name}' cannot be the name of a file")
             return {"CANCELLED"}
         path = os.path.join(folders()[0], name + SUFFIX)
+        left_out = textured_inputs(context.material)
         try:
             os.makedirs(folders()[0], exist_ok=True)
             with open(path + ".part", "w", encoding="utf-8") as file:
                 json.dump(of_material(context.material), file, indent=2)
             os.replace(path + ".part", path)
-        except OSError as problem:
+        except (OSError, ValueError) as problem:
             self.report({"ERROR"}, f"{path}: {problem}")
             return {"CANCELLED"}
+        if left_out:
+            self.report({"WARNING"}, f"A preset has constants: the textures of {', '.join(left_out)} are not in it")
+        else:
+            self.report({"INFO"}, f"Saved {path}")
         return {"FINISHED"}
 
 

@@ -1,10 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a Principled BSDF says about the surface that the flakes make up, in the numbers of libglint and glTF."""
+"""What a Principled BSDF says about the surface that the flakes make up, in the numbers of libglint and glTF, both ways."""
 
-from .flakes import Flakes
+import math
 
-# Blender's Specular 0.5 is a reflectance of 4 %: 8 % times the dial.
-SPECULAR_SCALE = 0.08
+from . import compat
+from .extension import number, single
+
+DIELECTRIC = 0.04  # what glTF takes for granted: an index of 1.5
+ANISOTROPY = "KHR_materials_anisotropy"
+CLEARCOAT = "KHR_materials_clearcoat"
+IOR = "KHR_materials_ior"
+SPECULAR = "KHR_materials_specular"
+
+COAT = ("Clearcoat", "Coat Weight")
+COAT_ROUGHNESS = ("Clearcoat Roughness", "Coat Roughness")
 
 
 def find(material):
@@ -14,52 +23,103 @@ def find(material):
     return next((n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED"), None)
 
 
-def input_value(node, names, default):
-    """The first input that this version of Blender has. A linked one gives its constant: textures are not looked up."""
-    for name in names:
-        socket = node.inputs.get(name)
-        if socket is not None:
-            return socket.default_value
-    return default
+def value_of(node, names, default):
+    """The constant of the first input that this version of Blender has."""
+    socket = compat.input_of(node, *names) if node is not None else None
+    return default if socket is None else socket.default_value
 
 
-def textured_inputs(material):
-    """Names of inputs that a flake takes as constants although something is linked to them."""
-    node = find(material)
-    names = ("Base Color", "Metallic", "Roughness", "Specular", "Specular IOR Level", "Normal")
-    return [n for n in names if node is not None and node.inputs.get(n) is not None and node.inputs[n].is_linked]
+def _set(node, names, value):
+    socket = compat.input_of(node, *names)
+    if socket is not None:
+        socket.default_value = value
 
 
-def flakes_of(material):
-    """Flakes from the material's property group and its Principled BSDF."""
-    group, node = material.glint, find(material)
-    color, metallic, roughness, specular = (1.0, 1.0, 1.0), 1.0, 0.5, 0.5
-    if node is not None:
-        color = tuple(input_value(node, ("Base Color",), (0.8, 0.8, 0.8, 1.0)))[:3]
-        metallic = input_value(node, ("Metallic",), 0.0)
-        roughness = input_value(node, ("Roughness",), 0.5)
-        specular = input_value(node, ("Specular", "Specular IOR Level"), 0.5)
-    alpha = max(roughness * roughness, 1e-4)
-    dielectric = min(SPECULAR_SCALE * specular, 1.0)
+def alpha_of(material):
+    return max(value_of(find(material), ("Roughness",), 0.5) ** 2, 1e-4)
 
-    def tinted(value, tint):
-        return value * (1.0 + group.factor * (tint - 1.0))
 
-    f0 = tuple(tinted(dielectric + metallic * (c - dielectric), t) for c, t in zip(color, group.color))
-    f90 = tuple(tinted(1.0, t) for t in group.color)
-    return Flakes(
-        distribution=group.distribution,
-        alpha_x=alpha,
-        alpha_y=alpha,
-        density_per_m2=group.density_per_cm2 * 1e4,
-        facet_roughness=group.facet_roughness,
-        elongation=group.elongation,
-        coverage=group.coverage,
-        factor=group.factor if group.enabled else 0.0,
-        color_variation=group.color_variation,
-        seed=group.seed,
-        uv_scale=group.uv_scale,
-        f0=f0,
-        f90=f90,
-        diffuse=tuple(c * (1.0 - metallic) for c in color),
-    )
+# ---- from glTF ----
+
+
+def apply(node, group, preset):
+    """Sets the Principled BSDF from a glTF material object: all that can be a constant."""
+    base, extensions = preset.get("pbrMetallicRoughness", {}), preset.get("extensions", {})
+    _set(node, ("Base Color",), base.get("baseColorFactor", [1.0] * 4))
+    _set(node, ("Metallic",), base.get("metallicFactor", 1.0))
+    _set(node, ("Roughness",), base.get("roughnessFactor", 1.0))
+    coat = extensions.get(CLEARCOAT, {})
+    _set(node, COAT, coat.get("clearcoatFactor", 0.0))
+    _set(node, COAT_ROUGHNESS, coat.get("clearcoatRoughnessFactor", 0.0))
+    apply_extensions(node, group, extensions)
+
+
+def apply_extensions(node, group, extensions):
+    """What Blender's own importer leaves out or has no room for."""
+    specular = extensions.get(SPECULAR, {})
+    if "specularTexture" not in specular and "specularColorTexture" not in specular:
+        compat.set_head_on_reflectance(node, extensions.get(IOR, {}).get("ior", 1.5))
+        factor = specular.get("specularFactor", 1.0)
+        group.specular_color = [factor * c for c in specular.get("specularColorFactor", (1.0, 1.0, 1.0))]
+    anisotropy = extensions.get(ANISOTROPY, {})
+    if "anisotropyTexture" not in anisotropy:
+        _set(node, ("Anisotropic",), anisotropy.get("anisotropyStrength", 0.0))
+        turns = anisotropy.get("anisotropyRotation", 0.0) / (2.0 * math.pi)
+        _set(node, ("Anisotropic Rotation",), turns % 1.0)
+
+
+# ---- to glTF ----
+
+
+def _specular(node, group):
+    """KHR_materials_ior and KHR_materials_specular: the index where it says what is reflected, else a colour."""
+    head_on = compat.head_on_reflectance(node)
+    ior = value_of(node, ("IOR",), 1.5)
+    out = {}
+    if math.isclose(head_on, DIELECTRIC, rel_tol=1e-5):
+        share = 1.0
+    elif math.isclose(head_on, ((ior - 1.0) / (ior + 1.0)) ** 2, rel_tol=1e-4):
+        out[IOR] = {"ior": number(ior)}
+        share = 1.0
+    else:
+        share = head_on / DIELECTRIC
+    color = [number(single(share * c)) for c in group.specular_color]
+    if color != [1.0, 1.0, 1.0]:
+        out[SPECULAR] = {"specularColorFactor": color}
+    return out
+
+
+def is_textured(node):
+    """Something is linked to what says how much is reflected head-on: then Blender's exporter knows better."""
+    names = ("Specular", "Specular IOR Level", "IOR")
+    return any(node.inputs[name].is_linked for name in names if name in node.inputs)
+
+
+def extensions_of(node, group):
+    """Extensions that say what the flakes are made of, where Blender's own exporter leaves them out."""
+    out = {} if is_textured(node) else _specular(node, group)
+    strength = value_of(node, ("Anisotropic",), 0.0)
+    if strength > 0.0:
+        turns = value_of(node, ("Anisotropic Rotation",), 0.0)
+        out[ANISOTROPY] = {"anisotropyStrength": number(strength),
+                           "anisotropyRotation": number(single(2.0 * math.pi * turns))}
+    return out
+
+
+def to_gltf(node, group):
+    """A glTF material object, without extensions of flakes, that apply() turns into this node again."""
+    out = {
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [number(c) for c in value_of(node, ("Base Color",), (1.0,) * 4)],
+            "metallicFactor": number(value_of(node, ("Metallic",), 0.0)),
+            "roughnessFactor": number(value_of(node, ("Roughness",), 0.5)),
+        },
+        "extensions": extensions_of(node, group),
+    }
+    coat = value_of(node, COAT, 0.0)
+    if coat > 0.0:
+        out["extensions"][CLEARCOAT] = {
+            "clearcoatFactor": number(coat),
+            "clearcoatRoughnessFactor": number(value_of(node, COAT_ROUGHNESS, 0.0)),
+        }
+    return out

@@ -29,16 +29,20 @@ def lit_share(alpha):
     return min(1.0, SUN_SR / (4.0 * math.pi * alpha * alpha))
 
 
-def lines(context):
-    from . import principled
-
-    group = context.material.glint
-    side = pixel_side_m(context.scene, context.object)
+def flakes_per_pixel(scene, object_, values, stretch=None):
+    """None where there is no camera. stretch  of the UV map that the flakes lie in: what a unit of it really measures."""
+    side = pixel_side_m(scene, object_)
     if side is None:
+        return None
+    count = values.density_per_cm2 * 1e4 * side**2
+    if values.space == "UV" and stretch is not None:
+        count *= (values.uv_scale / stretch.middle) ** 2
+    return count
+
+
+def lines(scene, object_, values, alpha, stretch=None):
+    """What the panel says below the density."""
+    count = flakes_per_pixel(scene, object_, values, stretch)
+    if count is None:
         return ["No camera: flakes per pixel unknown"]
-    scale = context.object.matrix_world.median_scale
-    if group.space == "OBJECT":
-        scale = 1.0
-    per_pixel = group.density_per_cm2 * 1e4 * (side / max(scale, 1e-12)) ** 2
-    shining = per_pixel * lit_share(principled.flakes_of(context.material).alpha_x)
-    return [f"{per_pixel:.3g} flakes per pixel", f"{shining:.3g} glints per pixel under the sun"]
+    return [f"{count:.3g} flakes per pixel", f"{count * lit_share(alpha):.3g} glints per pixel under the sun"]

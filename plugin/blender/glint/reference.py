@@ -5,6 +5,7 @@ import math
 import os
 import time
 
+import addon_utils
 import bpy
 
 from . import compat, nodes, principled, readout
@@ -14,22 +15,30 @@ SAMPLES_PER_FLAKE = 16
 LEAST_SAMPLES, MOST_SAMPLES = 64, 16384
 
 
-def open_scene(path, camera=""):
-    """A new file with nothing in it but the glTF scene."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    import addon_utils
-
-    addon_utils.enable("glint", default_set=True)
-    result = compat.import_gltf(os.path.abspath(path))
-    if "FINISHED" not in result:
-        raise RuntimeError(f"{path}: Blender's importer gave up")
-    scene = bpy.context.scene
+def _chosen_camera(scene, path, camera):
     cameras = [o for o in scene.objects if o.type == "CAMERA"]
+    if not camera and scene.camera is not None:
+        return scene.camera
     named = [o for o in cameras if camera in {o.name, o.data.name}] if camera else cameras
     if not named:
         names = ", ".join(o.name for o in cameras) or "none"
         raise RuntimeError(f"{path}: no camera '{camera}'; there are: {names}")
-    scene.camera = named[0]
+    return named[0]
+
+
+def open_scene(path, camera=""):
+    """The scene of a .blend file, or a new file with nothing in it but a glTF scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    addon_utils.enable(__package__, default_set=True)
+    if path.lower().endswith(".blend"):
+        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path))
+        addon_utils.enable(__package__, default_set=True)
+    elif "FINISHED" not in compat.import_gltf(os.path.abspath(path)):
+        raise RuntimeError(f"{path}: Blender's importer gave up")
+    scene = bpy.context.scene
+    scene.camera = _chosen_camera(scene, path, camera)
+    if not path.lower().endswith(".blend"):
+        fit_camera(scene.camera)
     return scene
 
 
@@ -64,27 +73,23 @@ def set_up(scene, width, height, threads=0, bounces=0, seed=0):
     scene.view_settings.view_transform = "Raw"
     for light in bpy.data.lights:
         light.cycles.use_multiple_importance_sampling = True
-    fit_camera(scene.camera, width, height)
 
 
-def fit_camera(camera, width, height):
-    """glTF's field of view is that of the height, its orthographic sizes are halves."""
-    data = camera.data
-    if data.type == "PERSP":
-        data.sensor_fit = "VERTICAL"
-    elif data.type == "ORTHO" and width < height:
-        data.sensor_fit = "VERTICAL"
+def fit_camera(camera):
+    """glTF's field of view is that of the height, its orthographic sizes are halves of the picture's."""
+    if camera.data.type == "PERSP":
+        camera.data.sensor_fit = "VERTICAL"
 
 
 def most_flakes_per_pixel(scene):
     most = 0.0
     for object_ in scene.objects:
-        if object_.type != "MESH":
-            continue
-        side = readout.pixel_side_m(scene, object_)
-        for slot in object_.material_slots:
-            if slot.material is not None and slot.material.glint.enabled and side is not None:
-                most = max(most, slot.material.glint.density_per_cm2 * 1e4 * side * side)
+        for slot in object_.material_slots if object_.type == "MESH" else ():
+            if slot.material is None:
+                continue
+            group = slot.material.glint
+            counts = [readout.flakes_per_pixel(scene, object_, v) for v in (group, group.coat) if v.enabled]
+            most = max([most, *(c for c in counts if c is not None)])
     return most
 
 
@@ -93,30 +98,42 @@ def samples_for(flakes):
     return int(min(MOST_SAMPLES, 2 ** math.ceil(math.log2(wanted))))
 
 
+def show_flakes(scene, smooth):
+    """Builds the nodes of every material that has flakes; returns what they are made of."""
+    materials = {}
+    for material in bpy.data.materials:
+        group = material.glint
+        if not group.enabled and not group.coat.enabled:
+            continue
+        for note in nodes.notes(material):
+            print(f"reference: {material.name}: Cycles cannot show {note}")
+        nodes.build(material, smooth)
+        compat.keep_normals(material)
+        alpha = principled.alpha_of(material)
+        strength = principled.value_of(principled.find(material), ("Anisotropic",), 0.0)
+        materials[material.name] = {
+            "distribution": group.distribution, "alpha": [alpha + (1.0 - alpha) * strength**2, alpha],
+            "density_per_m2": group.density_per_cm2 * 1e4, "facet_roughness": group.facet_roughness, "seed": group.seed,
+            "space": group.space, "left_out": nodes.notes(material),
+        }
+    return materials
+
+
 def render(scene, values):
     """Renders to values.output; returns what the picture depends on."""
     set_up(scene, values.width, values.height, values.threads, values.bounces, values.seed)
+    keeps_world = getattr(values, "world", False)
+    if not keeps_world:
+        scene.world = None
     flakes = most_flakes_per_pixel(scene)
     scene.cycles.samples = values.spp or samples_for(flakes)
-    materials = {}
-    for material in bpy.data.materials:
-        if not material.glint.enabled:
-            continue
-        left_out = principled.textured_inputs(material)
-        if left_out:
-            print(f"reference: {material.name}: taken as constants: {', '.join(left_out)}")
-        nodes.build(material, values.smooth)
-        compat.keep_normals(material)
-        f = principled.flakes_of(material)
-        materials[material.name] = {
-            "distribution": f.distribution, "alpha": [f.alpha_x, f.alpha_y], "density_per_m2": f.density_per_m2,
-            "facet_roughness": f.facet_roughness, "seed": f.seed,
-        }
+    materials = show_flakes(scene, values.smooth)
     scene.render.filepath = os.path.abspath(values.output)
     start = time.perf_counter()
     bpy.ops.render.render(write_still=True)
     return {
         "scene": os.path.basename(values.scene), "size": [values.width, values.height], "spp": scene.cycles.samples,
-        "seed": values.seed, "facets": "cycles", "smooth": values.smooth, "flakes_per_pixel": flakes,
-        "materials": materials, "blender": bpy.app.version_string, "seconds": time.perf_counter() - start,
+        "seed": values.seed, "facets": "cycles", "smooth": values.smooth, "world": keeps_world,
+        "camera": scene.camera.name, "flakes_per_pixel": flakes, "materials": materials,
+        "blender": bpy.app.version_string, "seconds": time.perf_counter() - start,
     }

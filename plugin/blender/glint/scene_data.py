@@ -111,7 +111,7 @@ def _get(collection, attribute, kind, width=1):
 
 
 def _texcoords(mesh, layer):
-    uv = compat.uv_values(layer, len(mesh.loops))
+    uv = compat.uv_arrays(layer, len(mesh.loops))
     numpy.subtract(1.0, uv[:, 1], out=uv[:, 1])
     return uv
 
@@ -262,5 +262,5 @@ def _area_light(made, light, matrix, scale):
     made.kind = abi.LIGHT_DISK if is_round else abi.LIGHT_RECT
     made.width_m, made.height_m = width * scale, height * scale
     area = area_lights.area(width, height, is_round)
-    made.intensity = light.energy / (math.pi * area) if area > 0.0 else 0.0
+    made.intensity = light.energy / (area_lights.WATTS_PER_RADIANCE * area) if area > 0.0 else 0.0
     return made

@@ -1,7 +1,7 @@
 /* The smooth lobe by its textbook formulas in long double, from the floats that the library gets: the truth of tests
  * and of what a formula loses in float. */
-#ifndef TESTS_LOBE_TRUTH_H
-#define TESTS_LOBE_TRUTH_H
+#ifndef STUDY_LOBE_TRUTH_H
+#define STUDY_LOBE_TRUTH_H
 
 #include "glint.h"
 #include "wide.h"

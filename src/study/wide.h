@@ -5,8 +5,8 @@
  * its neighbour, which is the largest relative error of one rounding. A bound of k of them says that k roundings add up
  * at worst.
  */
-#ifndef TESTS_WIDE_H
-#define TESTS_WIDE_H
+#ifndef STUDY_WIDE_H
+#define STUDY_WIDE_H
 
 #include <math.h>
 #include <stdio.h>

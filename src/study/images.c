@@ -1,0 +1,273 @@
+/* The study of whole pictures: error against seconds, for samples per pixel and for the budget of --accuracy, on four
+ * scenes. */
+#include "study/images.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "preview/preview.h"
+#include "study/study.h"
+
+extern const unsigned char images_samples_gnuplot[], images_accuracy_gnuplot[];
+
+static const int samples_of[] = { 1, 4, 16, 64, 256, 1024 };
+static const double accuracies[] = { 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002 };
+enum { SAMPLES = sizeof samples_of / sizeof samples_of[0], ACCURACIES = sizeof accuracies / sizeof accuracies[0] };
+
+/* How large, and how long. */
+typedef struct size_of_study {
+    int width, height;
+    int most;      /* samples, of those above */
+    int truth_spp; /* each of two references */
+    int budget_spp;
+} size_of_study;
+
+static size_of_study size_for(bool quick)
+{
+    return quick ? (size_of_study){ 48, 36, 4, 256, 64 } : (size_of_study){ 128, 96, SAMPLES, 2048, 256 };
+}
+
+static bool stopped(study_run *run, double fraction)
+{
+    return !study_goes_on(run, fraction);
+}
+
+/* Seconds of processor time, or a negative number after a failure. */
+static double render(study_run *run, const scene *s, const size_of_study *size, int spp, double accuracy, uint32_t seed,
+                     image *out)
+{
+    preview_options o = PREVIEW_OPTIONS_INIT;
+    o.width = size->width;
+    o.height = size->height;
+    o.spp = spp;
+    o.bounces = 0;
+    o.accuracy = accuracy;
+    o.seed = seed;
+    const double start = study_cpu_s();
+    return preview_render(s, &o, out, NULL, study_report(run)) ? study_cpu_s() - start : -1.0;
+}
+
+/* Root mean square of the difference of luminances over the mean of b, and a standard error by its pixels. */
+static double difference(const image *a, const image *b, double *bar)
+{
+    double square = 0.0, fourth = 0.0, mean = 0.0;
+    const int count = a->width * a->height, channels = a->channel_count;
+    for (int i = 0; i < count; i++) {
+        double d = 0.0;
+        for (int c = 0; c < 3; c++) {
+            const float *const p = &a->pixels[i * channels + c], *const q = &b->pixels[i * channels + c];
+            d += ((double)*p - (double)*q) / 3.0;
+            mean += (double)*q / (3.0 * count);
+        }
+        square += d * d / count;
+        fourth += d * d * d * d / count;
+    }
+    const double rms = sqrt(square);
+    *bar = rms > 0.0 ? sqrt(fmax(fourth - square * square, 0.0) / count) / (2.0 * rms * mean) : 0.0;
+    return rms / mean;
+}
+
+/* a becomes the mean of a and b. */
+static void average(image *a, const image *b)
+{
+    for (int i = 0; i < a->width * a->height * a->channel_count; i++)
+        a->pixels[i] = 0.5F * (a->pixels[i] + b->pixels[i]);
+}
+
+/* The mean of two long renders with other samples, and how far it is from what more would give. */
+static bool find_truth(study_run *run, const scene *s, const size_of_study *size, image *truth, double *noise)
+{
+    image second;
+    double bar;
+    if (render(run, s, size, size->truth_spp, 0.0, 11U, truth) < 0.0)
+        return false;
+    if (render(run, s, size, size->truth_spp, 0.0, 12U, &second) < 0.0) {
+        image_free(truth);
+        return false;
+    }
+    *noise = 0.5 * difference(truth, &second, &bar);
+    average(truth, &second);
+    image_free(&second);
+    return true;
+}
+
+typedef struct picture_error {
+    double cost_s, error, bar;
+} picture_error;
+
+static bool measure_picture(study_run *run, const scene *s, const size_of_study *size, int spp, double accuracy,
+                            const image *truth, picture_error *out)
+{
+    image picture;
+    out->cost_s = render(run, s, size, spp, accuracy, 1U, &picture);
+    if (out->cost_s < 0.0)
+        return false;
+    out->error = difference(&picture, truth, &out->bar);
+    image_free(&picture);
+    return true;
+}
+
+/* Samples against the truth. */
+static void measure_samples(study_run *run, int which, const scene *s, const size_of_study *size,
+                            picture_error found[SAMPLES])
+{
+    image truth;
+    double noise;
+    if (!find_truth(run, s, size, &truth, &noise))
+        return;
+    for (int i = 0; i < size->most; i++) {
+        if (!measure_picture(run, s, size, samples_of[i], 0.0, &truth, &found[i]))
+            break;
+        found[i].bar = hypot(found[i].bar, noise);
+        study_row(run, "%s,%d,%.5g,%.5g,%.2g,%d,%d", images_names[which], samples_of[i], found[i].cost_s,
+                  found[i].error, found[i].bar, size->width * size->height, 2 * size->truth_spp);
+    }
+    image_free(&truth);
+}
+
+/* What one budget leaves out, of whichever of the two it comes from. */
+static bool measure_budget(study_run *run, const scene *s, const size_of_study *size, double accuracy,
+                           const image wholes[2], picture_error *out)
+{
+    image picture;
+    double bar;
+    out->cost_s = render(run, s, size, size->budget_spp, accuracy, 1U, &picture);
+    if (out->cost_s < 0.0)
+        return false;
+    out->error = difference(&picture, &wholes[0], &out->bar);
+    const double other = difference(&picture, &wholes[1], &bar);
+    if (other < out->error) {
+        out->error = other;
+        out->bar = bar;
+    }
+    image_free(&picture);
+    return true;
+}
+
+/* Budgets against the same samples without one: what was left out, and nothing else. A small budget takes the exact
+ * integral over lights of real size, which no budget does not have: the smallest one is the other whole. */
+static void measure_accuracies(study_run *run, int which, const scene *s, const size_of_study *size,
+                               picture_error found[ACCURACIES + 1])
+{
+    image wholes[2];
+    double bar;
+    const double cost = render(run, s, size, size->budget_spp, 0.0, 1U, &wholes[0]);
+    if (cost < 0.0)
+        return;
+    if (render(run, s, size, size->budget_spp, 1e-6, 1U, &wholes[1]) < 0.0) {
+        image_free(&wholes[0]);
+        return;
+    }
+    found[ACCURACIES] = (picture_error){ cost, 0.0, 0.0 };
+    study_row(run, "%s,0,%.5g,0,0,%d", images_names[which], cost, size->budget_spp);
+    for (int i = 0; i < ACCURACIES && measure_budget(run, s, size, accuracies[i], wholes, &found[i]); i++)
+        study_row(run, "%s,%g,%.5g,%.5g,%.2g,%d", images_names[which], accuracies[i], found[i].cost_s, found[i].error,
+                  found[i].bar, size->budget_spp);
+    const double apart = difference(&wholes[0], &wholes[1], &bar);
+    if (apart > 0.0)
+        study_note(run,
+                   "%s: exact integrals over lights, which small budgets take and none does not, change it by %.4f",
+                   images_names[which], apart);
+    image_free(&wholes[0]);
+    image_free(&wholes[1]);
+}
+
+static void over_scenes(study_run *run, const size_of_study *size, double from, double to,
+                        picture_error (*samples)[SAMPLES], picture_error (*budgets)[ACCURACIES + 1])
+{
+    for (int k = 0; k < IMAGES_SCENES; k++) {
+        scene s;
+        if (stopped(run, from + (to - from) * k / IMAGES_SCENES))
+            return;
+        if (images_make(k, &s, study_report(run))) {
+            if (samples)
+                measure_samples(run, k, &s, size, samples[k]);
+            else
+                measure_accuracies(run, k, &s, size, budgets[k]);
+        }
+        scene_free(&s);
+    }
+}
+
+static void check_samples(study_run *run, const size_of_study *size, picture_error (*found)[SAMPLES])
+{
+    static char names[IMAGES_SCENES][SAMPLES][48];
+    const int last = size->most - 1;
+    for (int k = 0; k < IMAGES_SCENES; k++)
+        study_check(run, found[k][last].error < found[k][1].error / 2.0 && found[k][last].cost_s > found[k][0].cost_s,
+                    "%s: 4 samples are %.3f off, %d samples %.3f", images_names[k], found[k][1].error, samples_of[last],
+                    found[k][last].error);
+    study_setting settings[SAMPLES];
+    for (int i = 0; i < size->most; i++) {
+        snprintf(names[0][i], sizeof names[0][i], "%d samples", samples_of[i]);
+        settings[i] = (study_setting){ names[0][i], found[IMAGES_AREA][i].cost_s, found[IMAGES_AREA][i].error,
+                                       found[IMAGES_AREA][i].bar, false };
+    }
+    static const study_dial dial = { "images_samples_front.csv",
+                                     "Samples of the ball under a lamp.",
+                                     "seconds of one core",
+                                     "cost_s",
+                                     "root mean square error over the mean",
+                                     "16 samples for a look, 64 for a picture, 256 for a reference." };
+    study_front(run, &dial, settings, size->most);
+}
+
+static void check_accuracies(study_run *run, picture_error (*found)[ACCURACIES + 1])
+{
+    static char names[ACCURACIES + 1][32];
+    for (int k = 0; k < IMAGES_SCENES; k++)
+        for (int i = 0; i < ACCURACIES; i++)
+            study_check(run, found[k][i].error <= accuracies[i] + 3.0 * found[k][i].bar,
+                        "%s, --accuracy %g: %.4f was left out", images_names[k], accuracies[i], found[k][i].error);
+    study_setting settings[ACCURACIES + 1];
+    for (int i = 0; i <= ACCURACIES; i++) {
+        snprintf(names[i], sizeof names[i], "--accuracy %g", i < ACCURACIES ? accuracies[i] : 0.0);
+        settings[i] = (study_setting){ names[i], found[IMAGES_DENSE][i].cost_s, found[IMAGES_DENSE][i].error,
+                                       found[IMAGES_DENSE][i].bar, false };
+    }
+    static const study_dial dial = {
+        "images_accuracy_front.csv",
+        "Budgets for the dense plane.",
+        "seconds of one core",
+        "cost_s",
+        "what was left out, over the mean",
+        "Take --accuracy .1 for a look and 0 for a picture: budgets hold, and save little time so far."
+    };
+    study_front(run, &dial, settings, ACCURACIES + 1);
+}
+
+static void measure(study_run *run)
+{
+    static picture_error samples[IMAGES_SCENES][SAMPLES], budgets[IMAGES_SCENES][ACCURACIES + 1];
+    const size_of_study size = size_for(study_is_quick(run));
+    study_table(run, "images_samples.csv", "scene,samples,cost_s,error,error_bar,pixels,truth_samples");
+    over_scenes(run, &size, 0.0, 0.6, samples, NULL);
+    study_end_table(run);
+    study_table(run, "images_accuracy.csv", "scene,accuracy,cost_s,left_out,bar,samples");
+    over_scenes(run, &size, 0.6, 1.0, NULL, budgets);
+    study_end_table(run);
+    if (stopped(run, 1.0))
+        return;
+    check_samples(run, &size, samples);
+    check_accuracies(run, budgets);
+}
+
+static const study_figure figures[] = {
+    { "images_samples", "Error against seconds as samples are added, on four scenes.", images_samples_gnuplot },
+    { "images_accuracy", "What --accuracy leaves out of a picture, and the time that it saves.",
+      images_accuracy_gnuplot },
+    { NULL, NULL, NULL },
+};
+
+extern const study images_study;
+
+const study images_study = {
+    .name = "images",
+    .title = "Whole images: samples and budgets",
+    .truth =
+        "the mean of two long renders of everything; for budgets the same samples without one, or with the smallest",
+    .run = measure,
+    .figures = figures,
+};

@@ -1,0 +1,20 @@
+lights = int(system("grep -c '^point' integrals.csv"))
+set title sprintf("Lights of real size: what an integral costs, how far off it is\n{/*0.8 truth: brute force; %d random rectangles, GGX, √α from .1 to 1; bars: one standard deviation}", lights)
+set logscale xy
+set xlabel "ns a light (smooth lobe, one lane)\n{/*0.85 Choose the fast integral; the exact one for references and anisotropic roughness.}"
+set ylabel 'relative error of the radiance'
+set format y '10^{%L}'
+set key bottom left Left reverse
+set bars 0.6
+low(e, b) = e - b > e / 10 ? e - b : e / 10
+few(n) = strstrt(n, 'random') ? n : ''
+else(n) = strstrt(n, 'random') ? '' : n
+plot [60:1e5] [1e-7:100] \
+    '< grep ",1$" integrals_front.csv' using 2:3 with lines linetype 1 linewidth 1 dashtype 2 notitle, \
+    '< grep ",1$" integrals_worst_front.csv' using 2:3 with lines linetype 2 linewidth 1 dashtype 2 notitle, \
+    'integrals_front.csv' every ::1 using 2:3:(low($3, $4)):($3 + $4) with yerrorbars linetype 1 title 'median', \
+    'integrals_worst_front.csv' every ::1 using 2:3:(low($3, $4)):($3 + $4) with yerrorbars linetype 2 title '95 % of the lights', \
+    for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(else(stringcolumn(1))) \
+        with labels left offset 0.8,-0.5 font ',9' notitle, \
+    for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(few(stringcolumn(1))) \
+        with labels left offset 0.8,0.6 font ',9' textcolor rgb '#777777' notitle

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The reference and the comparison from within Blender: pictures, records, a report, and messages for what is missing.
+
+    blender -b --factory-startup --python-exit-code 3 -P test_jobs.py -- FOLDER GLINT
+"""
+
+import json
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import bpy
+
+import blender_case
+from blender_case import folder, fresh, new_material
+
+
+def stage():
+    """A square metre of glitter under a sun, 64 x 64 pixels of it."""
+    material = new_material()
+    group = material.glint
+    group.enabled, group.density_per_cm2, group.facet_roughness = True, 2.0, 0.2
+    material.node_tree.nodes["Principled BSDF"].inputs["Metallic"].default_value = 1.0
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
+    camera.data.type, camera.data.ortho_scale, camera.location = "ORTHO", 0.5, (0.0, 0.0, 2.0)
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    sun.data.angle, sun.rotation_euler = 0.1, (math.radians(20.0), 0.0, 0.0)
+    for object_ in (camera, sun):
+        scene.collection.objects.link(object_)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.glint_reference.samples = 256
+    return scene
+
+
+class Jobs(unittest.TestCase):
+    def setUp(self):
+        fresh()
+
+    def test_reference_and_report_from_the_scene_at_hand(self):
+        scene = stage()
+        bpy.context.preferences.addons["glint"].preferences.command = sys.argv[-1]
+        start = os.path.join(folder(), "scene")
+        scene.glint_reference.path = start + ".exr"
+        engine, samples = scene.render.engine, scene.cycles.samples
+        self.assertEqual(bpy.ops.glint.render_reference(), {"FINISHED"})
+        self.assertEqual((scene.render.engine, scene.cycles.samples), (engine, samples))
+        with open(start + ".json", encoding="utf-8") as file:
+            record = json.load(file)
+        self.assertEqual((record["size"], record["spp"], record["camera"]), ([64, 64], 256, "Eye"))
+        self.assertEqual(record["materials"]["flakes"]["density_per_m2"], 2e4)
+        self.assertAlmostEqual(record["materials"]["flakes"]["alpha"][1], 0.25, places=6)
+        self.assertEqual(bpy.ops.glint.compare(), {"FINISHED"})
+        with open(start + ".html", encoding="utf-8") as file:
+            page = file.read()
+        found = json.loads(page[page.index("{", page.index("application/json")) : page.index("</script>", page.index(
+            "application/json"))])
+        self.assertTrue(found["same_facets"], found["checks"])
+        self.assertGreater(found["correlation"], 0.99)
+
+    def test_what_is_missing_is_said(self):
+        scene = stage()
+        with self.assertRaisesRegex(RuntimeError, "Save the file first"):
+            bpy.ops.glint.render_reference()
+        scene.glint_reference.path = "/tmp/picture.png"
+        with self.assertRaisesRegex(RuntimeError, "ends in .exr"):
+            bpy.ops.glint.render_reference()
+        scene.glint_reference.path = os.path.join(folder(), "nothing.exr")
+        bpy.context.preferences.addons["glint"].preferences.command = sys.argv[-1]
+        with self.assertRaisesRegex(RuntimeError, "render the reference first"):
+            bpy.ops.glint.compare()
+        bpy.context.preferences.addons["glint"].preferences.command = "/nowhere/glint"
+        with self.assertRaisesRegex(RuntimeError, "glint command is neither"):
+            bpy.ops.glint.compare()
+        scene.camera = None
+        with self.assertRaisesRegex(RuntimeError, "no camera"):
+            bpy.ops.glint.render_reference()
+
+
+blender_case.run(Jobs)
