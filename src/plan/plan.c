@@ -161,8 +161,7 @@ static glint_plan *make(const glint_plan_summary *s)
     if (!a.allocate)
         a = (glint_allocator){ allocate_default, release_default, NULL };
     const size_t materials = s->material_count, lights = s->light_count;
-    const size_t decisions =
-        materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
+    const size_t decisions = materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
     /* One piece: the plan, then its arrays, those with pointers or larger members first. */
     const size_t size = sizeof(glint_plan) + decisions * sizeof(glint_decision) + materials * sizeof(plan_material) +
                         lights * sizeof(int);
