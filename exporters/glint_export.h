@@ -78,6 +78,28 @@ typedef struct glint_export_gltf_options {
 GLINT_EXPORT_API glint_export_result glint_export_gltf(const glint_export_gltf_options *options, char *message,
                                                        size_t message_size);
 
+typedef struct glint_export_gltf_scene_options {
+    size_t size;         /* set by GLINT_EXPORT_GLTF_SCENE_OPTIONS_INIT */
+    const char *input;   /* .gltf or .glb */
+    const char *output;  /* .gltf, with all bytes in data URIs, or .glb; NULL: nothing is written */
+    const char *variant; /* of KHR_materials_variants; NULL: the file's own materials */
+    const glint_export_assignment *materials; /* a material's name, or "*" for all = a preset; in order */
+    size_t material_count;
+    glint_export_listener listener;
+    char **summary; /* not NULL: gets a JSON document of what was done; see docs/command.md */
+} glint_export_gltf_scene_options;
+
+#define GLINT_EXPORT_GLTF_SCENE_OPTIONS_INIT                                                                           \
+    {                                                                                                                  \
+        sizeof(glint_export_gltf_scene_options), 0, 0, 0, 0, 0, { 0, 0 }, 0                                            \
+    }
+
+/* Writes a new glTF 2.0 file of what a renderer sees of another one: triangles, materials, cameras, lights and the
+ * environment, in one piece. Animations, skins, morph targets, compression and extensions that glint does not know are
+ * gone; nodes keep their numbers, on which facets hang, and glint renders the same picture. */
+GLINT_EXPORT_API glint_export_result glint_export_gltf_scene(const glint_export_gltf_scene_options *options,
+                                                             char *message, size_t message_size);
+
 /* ---- POV-Ray ---- */
 
 /* How flakes are written. AUTO takes for each object the one that claims most: exact for flat objects, portable for

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "exporters/gltf/textures.hpp"
 #include "io/file_error.hpp"
 #include "io/gltf_container.hpp"
 #include "io/preset.hpp"
@@ -18,17 +19,6 @@ struct freed {
         scene_free(s);
     }
 };
-
-std::vector<uint8_t> image_bytes(const scene_image &image)
-{
-    if (!image.path)
-        return { image.bytes, image.bytes + image.byte_count };
-    try {
-        return file_bytes(image.path, export_max_image_bytes);
-    } catch (const file_error &e) {
-        throw file_error("", std::string(image.path) + ": " + e.text);
-    }
-}
 
 } // namespace
 
@@ -47,6 +37,6 @@ export_preset export_read_preset(const std::string &name, report *r)
     preset.text.assign(bytes.begin(), bytes.end());
     preset.material = json_parse(preset.text);
     for (int i = 0; i < s.image_count; i++)
-        preset.images.push_back(image_bytes(s.images[i]));
+        preset.images.push_back(export_image_bytes(s.images[i]));
     return preset;
 }

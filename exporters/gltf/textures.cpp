@@ -3,11 +3,18 @@
 
 #include "io/file_error.hpp"
 
-namespace
+std::vector<uint8_t> export_image_bytes(const scene_image &image)
 {
+    if (!image.path)
+        return { image.bytes, image.bytes + image.byte_count };
+    try {
+        return file_bytes(image.path, export_max_image_bytes);
+    } catch (const file_error &e) {
+        throw file_error("", std::string(image.path) + ": " + e.text);
+    }
+}
 
-// Only these two are in glTF 2.0 itself (section 3.8.3).
-const char *mime_type(const std::vector<uint8_t> &bytes, const std::string &place)
+std::string export_image_type(const std::vector<uint8_t> &bytes, const std::string &place)
 {
     constexpr uint8_t png[] = { 0x89, 'P', 'N', 'G' }, jpeg[] = { 0xFF, 0xD8, 0xFF };
     if (bytes.size() > 4 && std::equal(png, png + 4, bytes.begin()))
@@ -16,8 +23,6 @@ const char *mime_type(const std::vector<uint8_t> &bytes, const std::string &plac
         return "image/jpeg";
     throw file_error("", place + ": found an image that is neither PNG nor JPEG, the two that glTF has");
 }
-
-} // namespace
 
 void texture_packer::read_old_images()
 {
@@ -43,7 +48,7 @@ size_t texture_packer::image_index(const std::vector<uint8_t> &bytes, const std:
     const auto known = known_images_.find(bytes);
     if (known != known_images_.end())
         return known->second;
-    const std::string type = mime_type(bytes, place);
+    const std::string type = export_image_type(bytes, place);
     ordered_json out;
     if (data_.has_chunk())
         out = { { "mimeType", type }, { "bufferView", data_.add_view(bytes.data(), bytes.size(), 0) } };

@@ -6,6 +6,12 @@
 #include "exporters/gltf/preset.hpp"
 #include "scene/scene.h"
 
+// As they are in their file. Throws a file_error that names it.
+std::vector<uint8_t> export_image_bytes(const scene_image &image);
+
+// image/png or image/jpeg: only these two are in glTF 2.0 itself (section 3.8.3). Throws a file_error for others.
+std::string export_image_type(const std::vector<uint8_t> &bytes, const std::string &place);
+
 class texture_packer
 {
   public:

@@ -7,9 +7,9 @@
 #include "glint_export.h"
 
 typedef struct export_values {
-    const char *output;
+    const char *output, *variant;
     assignments materials, values;
-    bool strip, bake_fallback, dry_run, json;
+    bool whole, strip, bake_fallback, dry_run, json;
 } export_values;
 
 static const argument_rule rules[] = {
@@ -29,6 +29,15 @@ static const argument_rule rules[] = {
       .help = "sets a property of the extension: /glintDensity=2e7; repeatable",
       .kind = ARGUMENT_ASSIGNMENT,
       .target = offsetof(export_values, values) },
+    { .name = "new",
+      .help = "writes a new file of what a renderer sees, in one piece",
+      .kind = ARGUMENT_FLAG,
+      .target = offsetof(export_values, whole) },
+    { .name = "variant",
+      .value = "NAME",
+      .help = "with --new: a variant of the file (KHR_materials_variants)",
+      .kind = ARGUMENT_TEXT,
+      .target = offsetof(export_values, variant) },
     { .name = "strip",
       .help = "first takes back what earlier exports changed",
       .kind = ARGUMENT_FLAG,
@@ -50,7 +59,8 @@ static const argument_rule rules[] = {
 static const argument_syntax syntax = {
     .command = "glint export gltf",
     .operands = "SCENE",
-    .summary = "Puts glint materials on a glTF 2.0 file (.gltf, .glb) and leaves every other byte of it as it is.",
+    .summary = "Puts glint materials on a glTF 2.0 file (.gltf, .glb) and leaves every other byte of it as it is.\n"
+               "With --new it writes another file of all that a renderer sees.",
     .operands_min = 1,
     .operands_max = 1,
     .rules = rules,
@@ -66,13 +76,9 @@ static glint_export_assignment *pairs_of(const assignments *a)
     return pairs;
 }
 
-static int run(const glint_export_gltf_options *o, messages *m, bool json)
+static int finish(glint_export_result result, messages *m, const char *summary)
 {
-    if (!o->materials || !o->values) {
-        report_error(&m->report, "out of memory");
-        return messages_fail(m);
-    }
-    switch (glint_export_gltf(o, m->report.error, sizeof m->report.error)) {
+    switch (result) {
     case GLINT_EXPORT_OK:
         break;
     case GLINT_EXPORT_WRONG_USAGE:
@@ -80,17 +86,31 @@ static int run(const glint_export_gltf_options *o, messages *m, bool json)
     case GLINT_EXPORT_BAD_INPUT:
         return messages_fail(m);
     }
-    if (json)
-        puts(*o->summary);
+    if (summary)
+        puts(summary);
     return COMMAND_DONE;
 }
 
-static int export_file(const char *input, const export_values *values)
+static glint_export_result write_new(const char *input, const export_values *values,
+                                     const glint_export_assignment *materials, char **summary, messages *m)
 {
-    messages m;
-    messages_begin(&m, values->json);
-    glint_export_assignment *materials = pairs_of(&values->materials), *sets = pairs_of(&values->values);
-    char *summary = NULL;
+    const glint_export_gltf_scene_options o = {
+        .size = sizeof o,
+        .input = input,
+        .output = values->dry_run ? NULL : values->output,
+        .variant = values->variant,
+        .materials = materials,
+        .material_count = values->materials.count,
+        .listener = { .warn = m->report.warn, .user = m->report.user },
+        .summary = values->json ? summary : NULL,
+    };
+    return glint_export_gltf_scene(&o, m->report.error, sizeof m->report.error);
+}
+
+static glint_export_result patch(const char *input, const export_values *values,
+                                 const glint_export_assignment *materials, const glint_export_assignment *sets,
+                                 char **summary, messages *m)
+{
     const glint_export_gltf_options o = {
         .size = sizeof o,
         .input = input,
@@ -101,10 +121,26 @@ static int export_file(const char *input, const export_values *values)
         .value_count = values->values.count,
         .strip = values->strip,
         .bake_fallback = values->bake_fallback,
-        .listener = { .warn = m.report.warn, .user = m.report.user },
-        .summary = values->json ? &summary : NULL,
+        .listener = { .warn = m->report.warn, .user = m->report.user },
+        .summary = values->json ? summary : NULL,
     };
-    const int code = run(&o, &m, values->json);
+    return glint_export_gltf(&o, m->report.error, sizeof m->report.error);
+}
+
+static int export_file(const char *input, const export_values *values)
+{
+    messages m;
+    messages_begin(&m, values->json);
+    glint_export_assignment *materials = pairs_of(&values->materials), *sets = pairs_of(&values->values);
+    char *summary = NULL;
+    glint_export_result result = GLINT_EXPORT_BAD_INPUT;
+    if (!materials || !sets)
+        report_error(&m.report, "%s: out of memory", input);
+    else if (values->whole)
+        result = write_new(input, values, materials, &summary, &m);
+    else
+        result = patch(input, values, materials, sets, &summary, &m);
+    const int code = finish(result, &m, summary);
     glint_export_free(summary);
     free(materials);
     free(sets);
@@ -125,6 +161,10 @@ static int parse_and_export(int argc, char **argv, export_values *values)
     }
     if (!values->output && !values->dry_run)
         return arguments_wrong(&syntax, "-o OUT is missing; --dry-run needs none");
+    if (values->variant && !values->whole)
+        return arguments_wrong(&syntax, "--variant: only with --new; without, all variants stay in the file");
+    if (values->whole && (values->strip || values->bake_fallback || values->values.count > 0))
+        return arguments_wrong(&syntax, "--new: not with --set, --strip or --bake-fallback; export its file again");
     return export_file(input, values);
 }
 

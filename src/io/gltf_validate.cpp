@@ -52,6 +52,21 @@ void check_names(const json &glint, const std::string &pointer, issue_list &issu
                        json(item.key()).dump() + ", which has no effect", nearest_names(item.key()));
 }
 
+struct roughness_of_layer {
+    const char *name;
+    double value;
+};
+
+// Of the layer that the facets are in: the coat's where its extension holds them or glintLayer names it.
+roughness_of_layer roughness_of(const json &glint, const json &material, const std::string &pointer)
+{
+    const json coat = material.value("/extensions/KHR_materials_clearcoat"_json_pointer, json::object());
+    if (glint.value("glintLayer", "base") == "clearcoat" || pointer.find("KHR_materials_clearcoat") != pointer.npos)
+        return { "clearcoatRoughnessFactor", coat.value("clearcoatRoughnessFactor", 0.0) };
+    const json pbr = material.value("pbrMetallicRoughness", json::object());
+    return { "roughnessFactor", pbr.value("roughnessFactor", 1.0) };
+}
+
 void check_values(const json &glint, const json &material, const std::string &pointer, issue_list &issues)
 {
     const uint32_t seed = glint.value("glintSeed", 0U);
@@ -63,13 +78,13 @@ void check_values(const json &glint, const json &material, const std::string &po
         issues.add(VALIDATE_WARNING, "DENSITY_UNRESOLVED", pointer + "/glintDensity", text_of(density),
                    "at most 2e13 facets per m^2: smaller ones are below half a wavelength of light, and no picture "
                    "shows one");
-    const json pbr = material.value("pbrMetallicRoughness", json::object());
-    const double roughness = pbr.value("roughnessFactor", 1.0), facet = glint.value("glintFacetRoughness", 0.05);
+    const roughness_of_layer layer = roughness_of(glint, material, pointer);
+    const double facet = glint.value("glintFacetRoughness", 0.05);
     // A normal map may lean one way only: grooves are as rough along them as within a texel.
     const bool is_mapped = glint.value("glintStructure", "flakes") == "example";
-    if (facet >= roughness && facet > 0.0 && !is_mapped)
+    if (facet >= layer.value && facet > 0.0 && !is_mapped)
         issues.add(VALIDATE_WARNING, "FACET_ROUGHNESS", pointer + "/glintFacetRoughness", text_of(facet),
-                   "less than the roughnessFactor of " + text_of(roughness) +
+                   std::string("less than the ") + layer.name + " of " + text_of(layer.value) +
                        ": facets that are rougher than the surface show no glints");
     if (!glint.contains("glintFactor") || glint["glintFactor"] == 0)
         issues.add(VALIDATE_INFO, "OFF", pointer + "/glintFactor", glint.contains("glintFactor") ? "0" : "none, so 0",

@@ -1,5 +1,5 @@
 stats 'images_accuracy.csv' using 6 every ::1 nooutput
-set multiplot layout 1,2 title sprintf("--accuracy: what it leaves out of a picture, and the time that it saves\n{/*0.8 truth: the same %d samples without a budget; bars: one standard error}", STATS_max)
+set multiplot layout 1,2 title sprintf("--accuracy: what it leaves out of a picture, and the time that it saves\n{/*0.8 truth: the same %d samples without a budget or with the smallest; bars: one standard error}", STATS_max)
 set logscale x
 set bars 0.6
 set logscale y
@@ -11,10 +11,11 @@ plot [0.0015:0.3] [1e-5:0.5] x with lines linetype 7 dashtype 2 title 'the budge
     for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
     sprintf('< grep "^%s,0\\.[0-9]" images_accuracy.csv', name) using 2:(least($4)):5 with yerrorlines linetype k title name
 unset logscale y
-set xlabel "--accuracy\n{/*0.85 Choose .02 for a look: so far a budget saves little time.}"
+set xlabel "--accuracy\n{/*0.85 Choose .1 for a look: so far a budget saves little time.}"
 set ylabel 'time over that without a budget'
+set format y '%g'
 set key bottom left Left reverse
 whole(name) = real(system(sprintf('grep "^%s,0," images_accuracy.csv | cut -d, -f3', name)))
-plot [0.0015:0.3] [0:1.2] for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
+plot [0.0015:0.3] [0:*] for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
     sprintf('< grep "^%s,0\\.[0-9]" images_accuracy.csv', name) using 2:($3 / whole(name)) with linespoints linetype k title name
 unset multiplot

@@ -122,7 +122,8 @@ static bool add_ball(scene *s, int material, double radius)
     if (!mesh)
         return false;
     for (int i = 0; i < (N + 1) * (N + 1); i++) {
-        const double u = i % (N + 1) / (double)N, v = i / (N + 1) / (double)N;
+        const int column = i % (N + 1), row = i / (N + 1);
+        const double u = (double)column / N, v = (double)row / N;
         const double phi = 6.283185307179586 * u, theta = 3.141592653589793 * v;
         const double x = sin(theta) * sin(phi), y = cos(theta), z = sin(theta) * cos(phi);
         set3(&mesh->position[3 * i], radius * x, radius * (1.0 + y), radius * z);

@@ -57,9 +57,9 @@ static double integrate(int method, const glint_material *m[2], const glint_surf
         }
         return sum / n;
     }
-    for (int i = 0; i < n * n; i++)
-        sum +=
-            sample_light(m[0], s, c->wo, &c->light, (2.0 * (i % n) + 1.0) / n - 1.0, (2.0 * (i / n) + 1.0) / n - 1.0);
+    for (int row = 0; row < n; row++)
+        for (int column = 0; column < n; column++)
+            sum += sample_light(m[0], s, c->wo, &c->light, (2.0 * column + 1.0) / n - 1.0, (2.0 * row + 1.0) / n - 1.0);
     return sum / (n * n);
 }
 
@@ -138,7 +138,7 @@ static double bar_of(const double *sorted, int count, double quantile)
     return 0.5 * (sorted[high] - sorted[low]);
 }
 
-static void report_fronts(study_run *run, const double cost[METHODS], double *errors, int count)
+static void report_fronts(study_run *run, const double cost[METHODS], const double *errors, int count)
 {
     static const study_dial usual = {
         "integrals_front.csv",

@@ -6,10 +6,13 @@
 
 enum { LAW_DRAWS = 12 };
 
-/* uniform: two of 32 bits for every draw, the second for those who need it. state: of a generator, for those who need
- * any number of them. */
-typedef void law_draw(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state,
-                      float count[LAW_DRAWS]);
+/* Randomness for twelve draws. */
+typedef struct law_source {
+    uint32_t uniform[2][LAW_DRAWS]; /* two for each draw, the second for those who need it */
+    uint64_t *state;                /* of a generator, for those who need any number of them */
+} law_source;
+
+typedef void law_draw(float trials, float p, const law_source *source, float count[LAW_DRAWS]);
 
 /* Deliot and Belcour 2023, Eqs. 16 to 18, as printed but for the gate, which is the right way round. */
 law_draw law_as_published;

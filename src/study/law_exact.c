@@ -75,15 +75,14 @@ static double invert(double n, double p, uint64_t *state)
     return y;
 }
 
-void law_exact(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state, float count[LAW_DRAWS])
+void law_exact(float trials, float p, const law_source *source, float count[LAW_DRAWS])
 {
     const double n = floor((double)trials), fraction = (double)trials - n, chance = (double)p;
     const double small = fmin(chance, 1.0 - chance);
     const int is_wide = n * small >= 10.0;
     const btpe b = is_wide ? btpe_of(n, small) : (btpe){ 0 };
-    (void)uniform;
     for (int i = 0; i < LAW_DRAWS; i++) {
-        const double x = is_wide ? btpe_draw(&b, state) : invert(n, small, state);
-        count[i] = (float)((chance > 0.5 ? n - x : x) + (random_uniform(state) < fraction * chance));
+        const double x = is_wide ? btpe_draw(&b, source->state) : invert(n, small, source->state);
+        count[i] = (float)((chance > 0.5 ? n - x : x) + (random_uniform(source->state) < fraction * chance));
     }
 }

@@ -4,17 +4,17 @@
 #define GLINT_LANES 1
 #include "math/binomial.h"
 
-void LAW_OURS(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state, float count[LAW_DRAWS])
+void LAW_OURS(float trials, float p, const law_source *source, float count[LAW_DRAWS])
 {
     vint u[LAW_DRAWS];
     vfloat weight[LAW_DRAWS];
     for (int i = 0; i < LAW_DRAWS; i++) {
-        u[i] = (vint)uniform[0][i];
+        u[i] = (vint)source->uniform[0][i];
         weight[i] = 1.0F;
     }
-    const vfloat dither[3] = { (float)(uniform[1][0] >> 8) * 0x1p-24F, (float)(uniform[1][1] >> 8) * 0x1p-24F,
-                               (float)(uniform[1][2] >> 8) * 0x1p-24F };
+    const vfloat dither[3] = { (float)(source->uniform[1][0] >> 8) * 0x1p-24F,
+                               (float)(source->uniform[1][1] >> 8) * 0x1p-24F,
+                               (float)(source->uniform[1][2] >> 8) * 0x1p-24F };
     const binomial_chance chance = binomial_chance_of(p);
-    (void)state;
     binomial_weighted_draws(trials, &chance, u, weight, dither, count, (binomial_many){ 3, 4 });
 }

@@ -40,29 +40,27 @@ static float normal(const gated *g, uint32_t bits)
     return g->mean + g->sigma * 1.41421356F * inverse_erf(2.0F * uniform_of(bits) - 1.0F);
 }
 
-void law_as_published(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state,
-                      float count[LAW_DRAWS])
+void law_as_published(float trials, float p, const law_source *source, float count[LAW_DRAWS])
 {
     const gated g = gated_of(trials, p);
-    (void)state;
     for (int i = 0; i < LAW_DRAWS; i++)
-        count[i] = uniform_of(uniform[0][i]) < g.any ? floorf(1.0F + normal(&g, uniform[1][i])) : 0.0F;
+        count[i] = uniform_of(source->uniform[0][i]) < g.any ? floorf(1.0F + normal(&g, source->uniform[1][i])) : 0.0F;
 }
 
-void law_gated(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state, float count[LAW_DRAWS])
+void law_gated(float trials, float p, const law_source *source, float count[LAW_DRAWS])
 {
     const gated g = gated_of(trials, p);
-    (void)state;
     for (int i = 0; i < LAW_DRAWS; i++)
-        count[i] = uniform_of(uniform[0][i]) < g.any ? floorf(1.0F + fmaxf(normal(&g, uniform[1][i]), 0.0F)) : 0.0F;
+        count[i] = uniform_of(source->uniform[0][i]) < g.any
+                       ? floorf(1.0F + fmaxf(normal(&g, source->uniform[1][i]), 0.0F))
+                       : 0.0F;
 }
 
-void law_clamped(float trials, float p, const uint32_t uniform[2][LAW_DRAWS], uint64_t *state, float count[LAW_DRAWS])
+void law_clamped(float trials, float p, const law_source *source, float count[LAW_DRAWS])
 {
     const gated g = gated_of(trials, p);
-    (void)state;
     for (int i = 0; i < LAW_DRAWS; i++)
-        count[i] = uniform_of(uniform[0][i]) < g.any
-                       ? fminf(fmaxf(normal(&g, uniform[1][i]), 1.0F), fmaxf(trials, 1.0F))
+        count[i] = uniform_of(source->uniform[0][i]) < g.any
+                       ? fminf(fmaxf(normal(&g, source->uniform[1][i]), 1.0F), fmaxf(trials, 1.0F))
                        : 0.0F;
 }

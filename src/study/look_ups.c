@@ -32,8 +32,9 @@ typedef struct samples {
 static void place(samples *s, int x, int y, int side, double lit, uint64_t *random)
 {
     for (int i = 0; i < side * side; i++) {
-        s->u[i] = (x + (i % side + random_uniform(random)) / side) * pixel_m;
-        s->v[i] = (y + (i / side + random_uniform(random)) / side) * pixel_m;
+        const int column = i % side, row = i / side;
+        s->u[i] = (x + (column + random_uniform(random)) / side) * pixel_m;
+        s->v[i] = (y + (row + random_uniform(random)) / side) * pixel_m;
         s->step[i] = (float)(pixel_m / 8.0);
         s->none[i] = 0.0F;
         s->density[i] = (float)(lit / (double)chance / (pixel_m * pixel_m));

@@ -52,9 +52,8 @@ static void shade(const glint_material *m, uint32_t seed, double facets, float *
     s.facets_per_m2 = (float)(facets * 1e8);
     const float smooth = smooth_value(&s, wo, wi);
     for (int i = 0; i < PIXELS; i++) {
-        const glint_footprint f = {
-            .u = (i % SIDE) * 1e-4, .v = (i / SIDE) * 1e-4, .dudx = 1e-4F, .dvdy = 1e-4F, .seed = seed
-        };
+        const int column = i % SIDE, row = i / SIDE;
+        const glint_footprint f = { .u = column * 1e-4, .v = row * 1e-4, .dudx = 1e-4F, .dvdy = 1e-4F, .seed = seed };
         float rgb[3];
         glint_eval(m, &s, &f, wo, wi, &light, rgb);
         pixels[i] = rgb[0] / smooth;

@@ -100,7 +100,7 @@ static void put_front(output_file *f, const study_front_table *t)
     for (int i = 0; i < t->count; ++i) {
         const study_setting *const s = &t->settings[i];
         put_between(f, s->on_front ? "<tr class=\"front\"><td>" : "<tr><td>", s->name, "</td>");
-        snprintf(cells, sizeof cells, "<td>%.3g</td><td>%.3g ± %.1g</td></tr>\n", s->cost, s->error, s->bar);
+        snprintf(cells, sizeof cells, "<td>%.4g</td><td>%.3g ± %.1g</td></tr>\n", s->cost, s->error, s->bar);
         put(f, cells);
     }
     put(f, "</table>\n");

@@ -5,56 +5,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "glint_export.h"
 #include "gltf_case.h"
 #include "io/validate.h"
+#include "mutant.h"
 
 #define MODELS "/usr/share/assimp/models/glTF2/"
 
 static unsigned mutants_per_seed = 500;
-
-typedef struct bytes {
-    uint8_t *data;
-    size_t size;
-} bytes;
-
-static uint64_t random_state;
-
-/* Marsaglia's xorshift64. */
-static size_t below(size_t limit)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 7;
-    random_state ^= random_state << 17;
-    return (size_t)(random_state % limit);
-}
-
-static bytes read_bytes(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        fail_msg("%s cannot be opened", path);
-    fseek(file, 0, SEEK_END);
-    bytes b = { NULL, (size_t)ftell(file) };
-    rewind(file);
-    b.data = malloc(b.size + 1);
-    assert_non_null(b.data);
-    assert_int_equal(fread(b.data, 1, b.size, file), b.size);
-    fclose(file);
-    return b;
-}
-
-static bytes splice(bytes from, size_t at, size_t length, const void *by, size_t by_size)
-{
-    bytes out = { malloc(from.size - length + by_size + 1), from.size - length + by_size };
-    assert_non_null(out.data);
-    memcpy(out.data, from.data, at);
-    memcpy(out.data + at, by, by_size);
-    memcpy(out.data + at + by_size, from.data + at + length, from.size - at - length);
-    return out;
-}
 
 /* What JSON is made of, and names that this code looks for. */
 static const char *const words[] = { "{",         "}",          "[",        "]",          ",",
@@ -67,31 +26,24 @@ static const char *const words[] = { "{",         "}",          "[",        "]",
 /* Half of the changes hit the JSON, which lies in front. */
 static bytes mutate(bytes b)
 {
-    const size_t at = below(below(2) == 0 && b.size > 2048 ? 2048 : b.size);
-    const size_t most = b.size - at < 64 ? b.size - at : 64, length = below(most) + 1;
+    const size_t at = mutant_below(mutant_below(2) == 0 && b.size > 2048 ? 2048 : b.size);
+    const size_t most = b.size - at < 64 ? b.size - at : 64, length = mutant_below(most) + 1;
     uint8_t byte = b.data[at];
-    const char *word = words[below(sizeof words / sizeof words[0])];
-    switch (below(6)) {
+    const char *word = words[mutant_below(sizeof words / sizeof words[0])];
+    switch (mutant_below(6)) {
     case 0:
-        byte ^= (uint8_t)(1U << below(8));
-        return splice(b, at, 1, &byte, 1);
+        byte ^= (uint8_t)(1U << mutant_below(8));
+        return bytes_splice(b, at, 1, &byte, 1);
     case 1:
-        return splice(b, at, length, "", 0);
+        return bytes_splice(b, at, length, "", 0);
     case 2: /* says something twice, or puts it elsewhere */
-        return splice(b, below(b.size), 0, b.data + at, length);
+        return bytes_splice(b, mutant_below(b.size), 0, b.data + at, length);
     case 3: /* a digit is the most fruitful byte to change */
-        byte = (uint8_t)('0' + below(10));
-        return splice(b, at, 1, &byte, 1);
+        byte = (uint8_t)('0' + mutant_below(10));
+        return bytes_splice(b, at, 1, &byte, 1);
     default:
-        return splice(b, at, below(2) == 0 ? 0 : length, word, strlen(word));
+        return bytes_splice(b, at, mutant_below(2) == 0 ? 0 : length, word, strlen(word));
     }
-}
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static bool export(const char *input, const char *output, int strip, const char *seed, unsigned number)
@@ -111,6 +63,17 @@ static bool export(const char *input, const char *output, int strip, const char 
     return result == GLINT_EXPORT_OK;
 }
 
+/* A new file from what is read of it: whole or refused with a reason. */
+static void write_new(const char *input, const char *output, const char *seed, unsigned number)
+{
+    glint_export_gltf_scene_options o = GLINT_EXPORT_GLTF_SCENE_OPTIONS_INIT;
+    o.input = input;
+    o.output = output;
+    char message[1024] = "";
+    if (glint_export_gltf_scene(&o, message, sizeof message) != GLINT_EXPORT_OK && message[0] == '\0')
+        fail_msg("mutant %u of %s: refused as a new file without a reason", number, seed);
+}
+
 static void ignore(const validate_issue *issue, void *user)
 {
     assert_true(issue->code[0] != '\0' && issue->found[0] != '\0');
@@ -122,8 +85,9 @@ static void check_mutant(gltf_case *c, const char *name, const char *seed, unsig
     char out[600], back[600];
     snprintf(out, sizeof out, "%s/out-%s", c->folder, name);
     snprintf(back, sizeof back, "%s/back-%s", c->folder, name);
-    const double start = seconds();
+    const double start = cpu_seconds();
     unsigned issues = 0;
+    write_new(c->path, out, seed, number);
     const bool valid = validate_file(c->path, ignore, &issues);
     if (!valid && issues == 0)
         fail_msg("mutant %u of %s: invalid without an issue", number, seed);
@@ -132,28 +96,22 @@ static void check_mutant(gltf_case *c, const char *name, const char *seed, unsig
         const bool stripped = export(out, back, 1, seed, number);
         if (!has_record) {
             assert_true(stripped);
-            const bytes a = read_bytes(c->path), b = read_bytes(back);
+            const bytes a = bytes_read(c->path), b = bytes_read(back);
             if (a.size != b.size || memcmp(a.data, b.data, a.size) != 0)
                 fail_msg("mutant %u of %s did not come back byte for byte", number, seed);
             free(a.data);
             free(b.data);
         }
     }
-    if (seconds() - start > 1.0)
-        fail_msg("mutant %u of %s took %g s", number, seed, seconds() - start);
+    if (cpu_seconds() - start > 1.0)
+        fail_msg("mutant %u of %s took %g s", number, seed, cpu_seconds() - start);
 }
 
 static void check_seed(gltf_case *c, const char *name, const char *path, bool has_record)
 {
-    const bytes seed = read_bytes(path);
+    const bytes seed = bytes_read(path);
     for (unsigned i = 0; i < mutants_per_seed; i++) {
-        random_state = 0x9E3779B97F4A7C15U * (i + 1);
-        bytes mutant = mutate(seed);
-        for (size_t more = below(3); more > 0 && mutant.size > 1; more--) {
-            const bytes next = mutate(mutant);
-            free(mutant.data);
-            mutant = next;
-        }
+        const bytes mutant = mutant_of(seed, i, mutate);
         gltf_case_write(c, name, mutant.data, mutant.size);
         check_mutant(c, name, path, i, has_record);
         free(mutant.data);

@@ -84,6 +84,35 @@ static void faults_of_the_extension_have_their_codes(void **state)
     }
 }
 
+/* Facets of .2: below the base's .5 and above the coat's .1, or the other way round. */
+static void facets_are_compared_with_the_layer_that_they_are_in(void **state)
+{
+#define FACETS "'GLINT_materials_glint': {'glintFactor': 1, 'glintFacetRoughness': 0.2"
+#define COAT "'KHR_materials_clearcoat': {'clearcoatFactor': 1, 'clearcoatRoughnessFactor': "
+    static const struct {
+        const char *base, *extensions, *found;
+    } cases[] = {
+        { "0.5", COAT "0.1, 'extensions': {" FACETS "}}}",
+          "clearcoat/extensions/GLINT_materials_glint/glintFacetRoughness" },
+        { "0.1", COAT "0.5, 'extensions': {" FACETS "}}}", NULL },
+        { "0.5", COAT "0.1}, " FACETS ", 'glintLayer': 'clearcoat'}", GLINT "/glintFacetRoughness" },
+        { "0.1", COAT "0.5}, " FACETS ", 'glintLayer': 'clearcoat'}", NULL },
+        { "0.1", COAT "0.5}, " FACETS "}", GLINT "/glintFacetRoughness" },
+    };
+    gltf_case *c = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        gltf_case_json(c,
+                       "'extensionsUsed': ['GLINT_materials_glint', 'KHR_materials_clearcoat'], 'materials':"
+                       "[{'pbrMetallicRoughness': {'roughnessFactor': %s}, 'extensions': {%s}}]",
+                       cases[i].base, cases[i].extensions);
+        const said s = validated(c->path, true);
+        if (cases[i].found)
+            expect(&s, cases[i].found);
+        else if (strstr(s.text, "FACET_ROUGHNESS"))
+            fail_msg("case %zu: said\n%s", i, s.text);
+    }
+}
+
 static void a_material_without_fault_has_no_issue(void **state)
 {
     gltf_case *c = *state;
@@ -197,9 +226,13 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_case_begin, gltf_case_end)
     const struct CMUnitTest tests[] = {
-        TEST(faults_of_the_extension_have_their_codes),    TEST(a_material_without_fault_has_no_issue),
-        TEST(all_faults_are_told_and_not_the_first_alone), TEST(the_second_object_in_the_coat_is_looked_at_too),
-        TEST(faults_of_the_file_around_have_their_codes),  TEST(faults_of_meshes_have_their_codes),
+        TEST(facets_are_compared_with_the_layer_that_they_are_in),
+        TEST(faults_of_the_extension_have_their_codes),
+        TEST(a_material_without_fault_has_no_issue),
+        TEST(all_faults_are_told_and_not_the_first_alone),
+        TEST(the_second_object_in_the_coat_is_looked_at_too),
+        TEST(faults_of_the_file_around_have_their_codes),
+        TEST(faults_of_meshes_have_their_codes),
         TEST(presets_are_checked_by_their_own_places),
     };
     return cmocka_run_group_tests_name("validate", tests, NULL, NULL);

@@ -33,7 +33,7 @@ def stage():
         scene.collection.objects.link(object_)
     scene.camera = camera
     scene.render.resolution_x = scene.render.resolution_y = 64
-    scene.glint.samples = 256
+    scene.glint_reference.samples = 256
     return scene
 
 
@@ -45,7 +45,7 @@ class Jobs(unittest.TestCase):
         scene = stage()
         bpy.context.preferences.addons["glint"].preferences.command = sys.argv[-1]
         start = os.path.join(folder(), "scene")
-        scene.glint.path = start + ".exr"
+        scene.glint_reference.path = start + ".exr"
         engine, samples = scene.render.engine, scene.cycles.samples
         self.assertEqual(bpy.ops.glint.render_reference(), {"FINISHED"})
         self.assertEqual((scene.render.engine, scene.cycles.samples), (engine, samples))
@@ -66,10 +66,10 @@ class Jobs(unittest.TestCase):
         scene = stage()
         with self.assertRaisesRegex(RuntimeError, "Save the file first"):
             bpy.ops.glint.render_reference()
-        scene.glint.path = "/tmp/picture.png"
+        scene.glint_reference.path = "/tmp/picture.png"
         with self.assertRaisesRegex(RuntimeError, "ends in .exr"):
             bpy.ops.glint.render_reference()
-        scene.glint.path = os.path.join(folder(), "nothing.exr")
+        scene.glint_reference.path = os.path.join(folder(), "nothing.exr")
         bpy.context.preferences.addons["glint"].preferences.command = sys.argv[-1]
         with self.assertRaisesRegex(RuntimeError, "render the reference first"):
             bpy.ops.glint.compare()

@@ -8,52 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include "gltf_case.h"
+#include "mutant.h"
 #include "scene_fault.h"
-
-typedef struct bytes {
-    uint8_t *data;
-    size_t size;
-} bytes;
-
-static uint64_t random_state;
-
-/* Marsaglia's xorshift64. */
-static size_t below(size_t limit)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 7;
-    random_state ^= random_state << 17;
-    return (size_t)(random_state % limit);
-}
-
-static bytes read_bytes(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        fail_msg("%s cannot be opened", path);
-    fseek(file, 0, SEEK_END);
-    bytes b = { NULL, (size_t)ftell(file) };
-    rewind(file);
-    b.data = malloc(b.size);
-    assert_non_null(b.data);
-    assert_int_equal(fread(b.data, 1, b.size, file), b.size);
-    fclose(file);
-    return b;
-}
-
-/* Replaces length bytes at a place by others. */
-static bytes splice(bytes from, size_t at, size_t length, const void *by, size_t by_size)
-{
-    bytes out = { malloc(from.size - length + by_size), from.size - length + by_size };
-    assert_non_null(out.data);
-    memcpy(out.data, from.data, at);
-    memcpy(out.data + at, by, by_size);
-    memcpy(out.data + at + by_size, from.data + at + length, from.size - at - length);
-    return out;
-}
 
 static size_t digits_at(bytes b, size_t at)
 {
@@ -77,45 +35,38 @@ static bytes replace_number(bytes b)
                                           "null",       "\"\"",
                                           "[]",         "{}",
                                           "true",       "18446744073709551616" };
-    size_t at = below(b.size);
+    size_t at = mutant_below(b.size);
     while (at < b.size && digits_at(b, at) == 0)
         at++;
-    const char *value = values[below(sizeof values / sizeof values[0])];
-    return splice(b, at, digits_at(b, at), value, strlen(value));
+    const char *value = values[mutant_below(sizeof values / sizeof values[0])];
+    return bytes_splice(b, at, digits_at(b, at), value, strlen(value));
 }
 
 static bytes mutate(bytes b)
 {
-    const size_t at = below(b.size);
-    const size_t length = below(b.size - at < 64 ? b.size - at : 64) + 1;
+    const size_t at = mutant_below(b.size);
+    const size_t length = mutant_below(b.size - at < 64 ? b.size - at : 64) + 1;
     uint8_t byte = b.data[at];
-    switch (below(6)) {
+    switch (mutant_below(6)) {
     case 0:
-        byte ^= (uint8_t)(1U << below(8));
-        return splice(b, at, 1, &byte, 1);
+        byte ^= (uint8_t)(1U << mutant_below(8));
+        return bytes_splice(b, at, 1, &byte, 1);
     case 1:
-        byte = (uint8_t)below(256);
-        return splice(b, at, 1, &byte, 1);
+        byte = (uint8_t)mutant_below(256);
+        return bytes_splice(b, at, 1, &byte, 1);
     case 2:
-        return splice(b, at, length <= b.size - at ? length : 1, "", 0);
+        return bytes_splice(b, at, length <= b.size - at ? length : 1, "", 0);
     case 3: /* says something twice, or puts it elsewhere */
-        return splice(b, below(b.size), 0, b.data + at, length <= b.size - at ? length : 1);
+        return bytes_splice(b, mutant_below(b.size), 0, b.data + at, length <= b.size - at ? length : 1);
     default: /* most often: it is numbers that point and count */
         return replace_number(b);
     }
 }
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Reads what was written last; a scene must be whole, a refusal must have a reason. */
 static void check_one(gltf_case *c, const char *seed, unsigned number)
 {
-    const double start = seconds();
+    const double start = cpu_seconds();
     if (gltf_case_read(c)) {
         const char *fault = scene_fault(&c->scene);
         if (fault)
@@ -126,21 +77,15 @@ static void check_one(gltf_case *c, const char *seed, unsigned number)
     } else if (c->said.error[0] == '\0' || c->scene.meshes || c->scene.images) {
         fail_msg("mutant %u of %s: refused without a reason, or not emptied", number, seed);
     }
-    if (seconds() - start > 10.0) /* a thousand times what the largest seed takes */
-        fail_msg("mutant %u of %s took %g s", number, seed, seconds() - start);
+    if (cpu_seconds() - start > 10.0) /* a thousand times what the largest seed takes */
+        fail_msg("mutant %u of %s took %g s", number, seed, cpu_seconds() - start);
 }
 
 static void check_mutants(gltf_case *c, const char *name, const char *path, unsigned count)
 {
-    const bytes seed = read_bytes(path);
+    const bytes seed = bytes_read(path);
     for (unsigned i = 0; i < count; i++) {
-        random_state = 0x9E3779B97F4A7C15U * (i + 1);
-        bytes mutant = mutate(seed);
-        for (size_t more = below(3); more > 0 && mutant.size > 1; more--) {
-            const bytes next = mutate(mutant);
-            free(mutant.data);
-            mutant = next;
-        }
+        const bytes mutant = mutant_of(seed, i, mutate);
         gltf_case_write(c, name, mutant.data, mutant.size);
         check_one(c, path, i);
         free(mutant.data);
@@ -176,13 +121,13 @@ static void mutants_of_real_files_are_whole_or_refused(void **state)
 static void mutants_of_draco_data_are_whole_or_refused(void **state)
 {
     gltf_case *c = *state;
-    const bytes json = read_bytes(MODELS "draco/2CylinderEngine.gltf"),
-                data = read_bytes(MODELS "draco/2CylinderEngine.bin");
+    const bytes json = bytes_read(MODELS "draco/2CylinderEngine.gltf"),
+                data = bytes_read(MODELS "draco/2CylinderEngine.bin");
     for (unsigned i = 0; i < 150; i++) {
-        random_state = 0xD1B54A32D192ED03U * (i + 1);
-        bytes copy = splice(data, 0, 0, "", 0);
+        mutant_start(0xD1B54A32D192ED03U * (i + 1));
+        bytes copy = bytes_splice(data, 0, 0, "", 0);
         for (int k = 0; k < 4; k++)
-            copy.data[below(copy.size)] ^= (uint8_t)(1U << below(8));
+            copy.data[mutant_below(copy.size)] ^= (uint8_t)(1U << mutant_below(8));
         gltf_case_write(c, "2CylinderEngine.bin", copy.data, copy.size);
         gltf_case_write(c, "scene.gltf", json.data, json.size);
         check_one(c, "2CylinderEngine.bin", i);

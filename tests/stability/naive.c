@@ -300,6 +300,7 @@ static void long_ellipse(void)
     const double sum = 0.5 * (uu + vv), root = sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv);
     area_light l;
     area_make_ellipse(&l, (vec3d){ 0.0, 0.0, 1.0 }, (vec3d){ a * c, a * s, 0.0 }, (vec3d){ -b * s, b * c, 0.0 }, 1);
+    area_measure(&l);
     row("width over length of an ellipse of 10⁻² by 10⁻⁹ radians", "smaller eigenvalue: trace / 2 - √…, in double",
         sqrt(fmax(sum - root, 0.0) / (sum + root)), (wide)b / (wide)a, l.kind == AREA_CONIC ? l.cone.b / l.cone.a : 0.0,
         "determinant as squares of areas, over the larger eigenvalue", "480 double roundings, and (4·2⁻⁵³ / b)²",

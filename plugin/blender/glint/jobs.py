@@ -45,11 +45,11 @@ def _size(scene):
 
 def _reference_path(scene):
     """Absolute, or None with the reason."""
-    path = bpy.path.abspath(scene.glint.path)
-    if scene.glint.path.startswith("//") and not bpy.data.filepath:
+    path = bpy.path.abspath(scene.glint_reference.path)
+    if scene.glint_reference.path.startswith("//") and not bpy.data.filepath:
         return None, "Save the file first, or give the reference a whole path: '//' is the folder of the file"
     if not path.lower().endswith(".exr"):
-        return None, f"'{scene.glint.path}': expected a name that ends in .exr"
+        return None, f"'{scene.glint_reference.path}': expected a name that ends in .exr"
     return path, ""
 
 
@@ -164,7 +164,7 @@ class GLINT_OT_render_reference(Job, bpy.types.Operator):
         self.path = path
         return [lambda: [
             bpy.app.binary_path, "-b", "--factory-startup", "--python-exit-code", "3", "-P", REFERENCE, "--", copy, "-o", path,
-            "--size", _size(scene), "--spp", str(scene.glint.samples), "--bounces", str(scene.glint.bounces),
+            "--size", _size(scene), "--spp", str(scene.glint_reference.samples), "--bounces", str(scene.glint_reference.bounces),
         ]]
 
     def finish(self, context):
@@ -203,17 +203,17 @@ class GLINT_OT_compare(Job, bpy.types.Operator):
         return [
             export,
             lambda: [command, "render", exported, "-o", ours, "--size", _size(scene), "--spp", "64", "--model",
-                     scene.glint.model, "--facets", "cycles", "--bounces", str(scene.glint.bounces), "--camera",
+                     scene.glint_reference.model, "--facets", "cycles", "--bounces", str(scene.glint_reference.bounces), "--camera",
                      scene.camera.name],
             lambda: [command, "compare", path, ours, "-o", self.page, "--json"],
         ]
 
     def accepts(self, code):
         # 1: the pictures do not agree, which is an answer.
-        return code == 0 or (code == 1 and self.output.startswith("{"))
+        return code == 0 or (code == 1 and "{" in self.output)
 
     def finish(self, context):
-        found = json.loads(self.output)
+        found, _ = json.JSONDecoder().raw_decode(self.output, self.output.index("{"))  # warnings may stand around it
         verdict = {"pass": "agree", "unclear": "may agree", "fail": "do not agree"}[found["verdict"]]
         level = "WARNING" if found["verdict"] == "fail" else "INFO"
         self.report({level}, f"The pictures {verdict}: {self.page}")
@@ -231,7 +231,7 @@ class GLINT_PT_reference(bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        layout, values = self.layout, context.scene.glint
+        layout, values = self.layout, context.scene.glint_reference
         layout.use_property_split = True
         layout.prop(values, "path")
         layout.prop(values, "samples")
@@ -247,10 +247,10 @@ CLASSES = (GlintReferenceProperties, GLINT_OT_render_reference, GLINT_OT_compare
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Scene.glint = bpy.props.PointerProperty(type=GlintReferenceProperties)
+    bpy.types.Scene.glint_reference = bpy.props.PointerProperty(type=GlintReferenceProperties)
 
 
 def unregister():
-    del bpy.types.Scene.glint
+    del bpy.types.Scene.glint_reference
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -6,13 +6,11 @@ is.
 """
 
 import json
+from types import SimpleNamespace
 
-from . import extension, principled
+from . import extension, principled, textures
 from .scene_images import Image, packed, pixels_of, texture_image
 from .scene_nodes import Source, origin, source_of
-
-# glTF's reflectance at an ior of 1.5.
-F0_OF_GLTF = 0.04
 
 WRAP = {"REPEAT": 10497, "EXTEND": 33071, "CLIP": 33071, "MIRROR": 33648}
 NEAREST = 9728
@@ -29,8 +27,7 @@ INPUTS = {
     "coat": (("Clearcoat", "Coat Weight"), 0.0),
     "coat_roughness": (("Clearcoat Roughness", "Coat Roughness"), 0.03),
 }
-NOT_RENDERED = ("Transmission", "Transmission Weight", "Subsurface", "Subsurface Weight", "Sheen", "Sheen Weight",
-                "Anisotropic")
+NOT_RENDERED = ("Transmission", "Transmission Weight", "Subsurface", "Subsurface Weight", "Sheen", "Sheen Weight")
 
 
 def _clip(value):
@@ -120,11 +117,30 @@ class _Reader:
             self.read_coat()
             self.read_normal()
             self.warn_of_unrendered()
-        if self.material.glint.enabled:
-            self.extensions[extension.NAME] = extension.from_values(self.material.glint)
+        self.read_glints()
         if self.extensions:
             self.out["extensions"] = self.extensions
         return self.out
+
+    def read_glints(self):
+        own, coat = extension.of_material(self.material.glint, self.glint_texture)
+        if own is not None:
+            self.extensions[extension.NAME] = own
+        if coat is not None:
+            self.extensions.setdefault(extension.COAT, {"clearcoatFactor": 0.0})["extensions"] = {extension.NAME: coat}
+
+    def glint_texture(self, texture):
+        """The textureInfo of a texture of the flakes, or None."""
+        if texture is None or texture.image is None:
+            return None
+        glint, image = self.material.glint, texture.image
+        as_color = texture in (glint.color_texture, glint.coat.color_texture)
+        number = self.all.image((image.name, as_color), lambda: texture_image(image, as_color))
+        if number is None:
+            self.warn(f"the image \"{image.name}\" has no pixels")
+            return None
+        repeated = SimpleNamespace(extension="REPEAT", interpolation="Closest" if texture.closest else "Linear")
+        return textures.info_of(texture, self.all.texture(number, repeated))
 
     def read_display(self):
         """Without a Principled BSDF: what the viewport shows."""
@@ -233,9 +249,7 @@ class _Reader:
         specular = self.source("specular")
         if specular.node is not None:
             self.warn("a texture of Specular is not read")
-        if specular.factor != 0.5:
-            f0 = principled.SPECULAR_SCALE * specular.factor
-            self.extensions["KHR_materials_specular"] = {"specularColorFactor": [f0 / F0_OF_GLTF] * 3}
+        self.extensions.update(principled.extensions_of(self.node, self.material.glint))
 
     def read_emission(self):
         color, strength = self.source("emission"), self.source("strength")
