@@ -512,6 +512,7 @@ typedef struct glint_plan_summary {
     uint32_t pixel_count;       /* that were looked at */
     uint32_t bounces;           /* of indirect light that are asked for */
     float bounce_rays;          /* per sample */
+    float sky_rays;             /* per sample: without bounces, for what surrounds the scene */
     float bounced;              /* what they bring to a pixel, relative */
     float noise;                /* relative standard deviation of one sample, but for facets */
     float error_budget;         /* (0, 1]; 0: nothing may be left out */
@@ -520,7 +521,7 @@ typedef struct glint_plan_summary {
 
 #define GLINT_PLAN_SUMMARY_INIT                                                                                        \
     {                                                                                                                  \
-        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.02F,                           \
+        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.0F, 0.02F,                     \
         {                                                                                                              \
             0, 0, 0                                                                                                    \
         }                                                                                                              \

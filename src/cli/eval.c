@@ -15,6 +15,7 @@ typedef struct eval_values {
     const char *material;
     int model; /* see arguments_model_choice */
     int layer; /* see layer_choice */
+    double accuracy;
     bool json;
 } eval_values;
 
@@ -42,6 +43,13 @@ static const argument_rule rules[] = {
       .kind = ARGUMENT_CHOICE,
       .choice = layer_choice,
       .target = offsetof(eval_values, layer) },
+    { .name = "accuracy",
+      .value = "X",
+      .help = "deviation of the facets that may be left out, relative; 0 counts all (0)",
+      .kind = ARGUMENT_NUMBER,
+      .min = 0,
+      .max = 1,
+      .target = offsetof(eval_values, accuracy) },
     { .name = "json",
       .help = "print an array of objects",
       .kind = ARGUMENT_FLAG,
@@ -72,6 +80,7 @@ static bool plan_layer(const eval_values *values, const scene *s, const scene_ma
     const glint_model automatic = g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
     const glint_model model = values->model == 0 ? automatic : (glint_model)(values->model - 1);
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, model) : scene_coat_options(m, model);
+    out->options.smooth_deviation = (float)values->accuracy;
     if (g == NULL || out->options.model != GLINT_MODEL_EXAMPLE)
         return true;
     if (g->structure != SCENE_STRUCTURE_EXAMPLE)

@@ -139,6 +139,7 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
                  s->samples_per_pixel, s->tiles_per_pixel);
     check(c, "error_budget", s->error_budget, 0.0F, 1.0F);
     check(c, "bounce_rays", s->bounce_rays, 0.0F, 1e9F);
+    check(c, "sky_rays", s->sky_rays, 0.0F, 1e9F);
     check(c, "bounced", s->bounced, 0.0F, 1e9F);
     check(c, "noise", s->noise, 0.0F, 1e9F);
     if (!s->allocator.allocate != !s->allocator.release)
@@ -161,8 +162,7 @@ static glint_plan *make(const glint_plan_summary *s)
     if (!a.allocate)
         a = (glint_allocator){ allocate_default, release_default, NULL };
     const size_t materials = s->material_count, lights = s->light_count;
-    const size_t decisions =
-        materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
+    const size_t decisions = materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
     /* One piece: the plan, then its arrays, those with pointers or larger members first. */
     const size_t size = sizeof(glint_plan) + decisions * sizeof(glint_decision) + materials * sizeof(plan_material) +
                         lights * sizeof(int);

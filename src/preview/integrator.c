@@ -93,6 +93,8 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
                                ray_counts *counts)
 {
     float throughput[3] = { 1.0F, 1.0F, 1.0F };
+    if (w->bounces < 1 && !w->has_sky)
+        return;
     vertex v = *from;
     for (int depth = 1; depth <= w->bounces || w->has_sky; ++depth) {
         shade_direction next;

@@ -28,7 +28,7 @@ typedef struct tally {
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
-    double noise, bounced, bounce_rays;
+    double noise, bounced, bounce_rays, sky_rays;
 } tally;
 
 static double level(const float rgb[3])
@@ -48,11 +48,13 @@ static double look_at_samples(tally *t, int x, int y)
         ray_counts counts = { 0 }, fewer = { 0 };
         integrate(t->world, x, y, i, &whole, &counts);
         less = whole;
-        t->bounce_rays += (double)counts.bounce_rays / SAMPLES;
         if (t->world->bounces > 0) {
             integrate(t->direct, x, y, i, &less, &fewer);
-            t->bounce_rays -= (double)fewer.bounce_rays / SAMPLES;
+        } else {
+            fewer = counts;
         }
+        t->bounce_rays += (double)(counts.bounce_rays - fewer.bounce_rays) / SAMPLES;
+        t->sky_rays += (double)fewer.bounce_rays / SAMPLES;
         sum += level(whole.light.smooth);
         square += level(whole.light.smooth) * level(whole.light.smooth);
         direct += level(less.light.smooth);
@@ -279,6 +281,7 @@ static void end(survey *s, const tally *t, const preview_options *o)
         return;
     end_pairs(s, t);
     to->bounce_rays = (float)fmax(t->bounce_rays / t->pixels, 0.0);
+    to->sky_rays = (float)(t->sky_rays / t->pixels);
     to->bounced = (float)sqrt(fmax(t->bounced / t->pixels, 0.0));
     to->noise = (float)sqrt(t->noise / t->pixels);
     for (uint32_t i = 0; i < to->material_count; ++i)

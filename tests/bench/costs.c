@@ -187,8 +187,8 @@ static scene make_scene(const setting *c)
     scenes_add_instance(&s, scenes_add_square(&s, material, 1.0F), NULL, 0);
     if (c->ball)
         scenes_add_instance(&s, scenes_add_sphere(&s, material, 0.3F, 32, 16), NULL, 1);
-    if (c->lit)
-        scenes_add_light(&s, SCENE_LIGHT_POINT, from, 1.0F);
+    /* A black one, so that there is no studio and no sky, to see which rays would leave every surface. */
+    scenes_add_light(&s, SCENE_LIGHT_POINT, from, c->lit ? 1.0F : 0.0F);
     return s;
 }
 
@@ -209,7 +209,6 @@ static double render_s(const scene *s, const preview_options *from, int spp, pre
 /* ns a sample; *bounce_rays: of a sample. */
 static double sample_ns(const setting *c, double *bounce_rays)
 {
-    static const preview_sky black = { { 0.0F }, { 0.0F }, { 0.0F } };
     static const float eye[3] = { 0.0F, 1.0F, 1e-4F }, target[3] = { 0.0F, 0.0F, 0.0F };
     const scene_camera camera = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, 0.9F);
     scene s = make_scene(c);
@@ -219,7 +218,6 @@ static double sample_ns(const setting *c, double *bounce_rays)
     o.bounces = c->bounces;
     o.threads = 1;
     o.camera = &camera;
-    o.sky = c->bounces > 0 ? NULL : &black;
     double least_few = HUGE_VAL, least_many = HUGE_VAL;
     for (int r = 0; r < ROUNDS; r++) {
         least_few = fmin(least_few, render_s(&s, &o, FEW, &few));
@@ -234,16 +232,14 @@ static double sample_ns(const setting *c, double *bounce_rays)
 
 static void measure_samples(void)
 {
-    double none, some;
-    /* A sky is gone through by a ray from every surface, so even without bounces: they are counted, and paid, apart. */
-    const double bare = sample_ns(&(setting){ 0 }, &none);
-    const double per_ray =
-        (sample_ns(&(setting){ .ball = true, .bounces = 1 }, &some) - sample_ns(&(setting){ .ball = true }, &none)) /
-        1.0;
+    double rays;
+    const double bare = sample_ns(&(setting){ 0 }, NULL);
+    const double direct = sample_ns(&(setting){ .ball = true, .lit = true }, NULL);
+    const double bounced = sample_ns(&(setting){ .ball = true, .lit = true, .bounces = 1 }, &rays);
     const double lit = sample_ns(&(setting){ .lit = true }, NULL);
     const double textured = sample_ns(&(setting){ .textured = true }, NULL);
     cost[PLAN_COST_CAMERA_RAY] = bare;
-    cost[PLAN_COST_BOUNCE_RAY] = per_ray / fmax(some - none, 1e-3);
+    cost[PLAN_COST_BOUNCE_RAY] = (bounced - direct) / rays;
     cost[PLAN_COST_SHADOW_RAY] = lit - bare - cost[PLAN_COST_SMOOTH];
     cost[PLAN_COST_TEXTURE] = textured - bare;
     cost[PLAN_COST_NORMAL_MAP] = sample_ns(&(setting){ .bumpy = true }, NULL) - bare;
@@ -260,7 +256,7 @@ int main(void)
     ltc_error[1] = measure_ltc(GLINT_DISTRIBUTION_BECKMANN);
     puts("/* What things cost and how far they are off. Measured, and written, by tests/bench/costs.c:\n"
          " *\n"
-         " *     ./dev bench && build/release/bench/costs > src/plan/cost_table.c\n"
+         " *     ./dev bench && build/release/bench/costs > src/plan/cost_table.c && ./dev format\n"
          " */\n"
          "#include \"plan/cost_table.h\"\n\n"
          "const float plan_costs[PLAN_COST_COUNT] = {");

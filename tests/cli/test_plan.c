@@ -1,0 +1,108 @@
+/* glint plan and --accuracy: a table for people, the same as a document, the plan in the document of a render, and a
+ * warning where a budget that was asked for is not met. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <jansson.h>
+
+#include "run_glint.h"
+#include "workplace.h"
+
+static int enter(void **state)
+{
+    const int result = workplace_enter(state);
+    if (result == 0)
+        scene_write("plane");
+    return result;
+}
+
+static json_t *document_of(const outcome *o)
+{
+    assert_exit(o, 0);
+    json_error_t error;
+    json_t *d = json_loads(o->out, JSON_REJECT_DUPLICATES, &error);
+    if (!d)
+        fail_msg("%s in:\n%s", error.text, o->out);
+    return d;
+}
+
+/* The keys that programs rely on, and shares of time that add up to one. */
+static void assert_is_plan(const json_t *plan)
+{
+    const json_t *const list = json_object_get(plan, "decisions");
+    double time = 0.0;
+    assert_true(json_array_size(list) > 5);
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        const json_t *const d = json_array_get(list, i);
+        time += json_number_value(json_object_get(d, "time_share"));
+        assert_true(json_is_string(json_object_get(d, "effect")) && json_is_boolean(json_object_get(d, "on")));
+        assert_true(strlen(json_string_value(json_object_get(d, "choice"))) > 0);
+        assert_true(strlen(json_string_value(json_object_get(d, "reason"))) > 0);
+        assert_true(json_is_number(json_object_get(d, "error")));
+    }
+    assert_true(fabs(time - 1.0) < 1e-4);
+    assert_true(json_is_number(json_object_get(plan, "error")) && json_is_number(json_object_get(plan, "noise")));
+    assert_true(json_is_boolean(json_object_get(plan, "met")));
+}
+
+static void plan_is_a_table_and_a_document(void **state)
+{
+    (void)state;
+    outcome o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--material", "panel=sand");
+    assert_exit(&o, 0);
+    assert_says(o.out, "panel");
+    assert_says(o.out, "facets");
+    assert_says(o.out, "budget of 0.02");
+    outcome_free(&o);
+    o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--accuracy", "0.1", "--json");
+    json_t *d = document_of(&o);
+    assert_true(json_number_value(json_object_get(d, "accuracy")) == 0.1);
+    assert_is_plan(json_object_get(d, "plan"));
+    json_decref(d);
+    outcome_free(&o);
+    assert_refused(glint_run(NULL, "plan", "plane.gltf", "-o", "a.exr"), 2, "unknown option '-o'");
+    assert_refused(glint_run(NULL, "plan", "plane.gltf", "--accuracy", "2"), 2, "--accuracy '2'");
+}
+
+static void render_says_what_was_planned(void **state)
+{
+    (void)state;
+    outcome o = glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "16x16", "--spp", "4", "--json");
+    json_t *d = document_of(&o);
+    assert_true(json_number_value(json_object_get(d, "accuracy")) == 0.02);
+    assert_is_plan(json_object_get(d, "plan"));
+    json_decref(d);
+    outcome_free(&o);
+    o = glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "16x16", "--spp", "4", "--accuracy", "0",
+                  "--json");
+    d = document_of(&o);
+    assert_null(json_object_get(d, "plan"));
+    json_decref(d);
+    outcome_free(&o);
+}
+
+/* The edge of the plane alone leaves more noise than a millionth. */
+static void budget_that_is_not_met_is_said_before_rendering(void **state)
+{
+    (void)state;
+    outcome o =
+        glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "16x16", "--spp", "1", "--accuracy", "1e-6");
+    assert_exit(&o, 0);
+    assert_says(o.err, "warning: --accuracy 1e-06 is not met");
+    outcome_free(&o);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(plan_is_a_table_and_a_document, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(render_says_what_was_planned, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(budget_that_is_not_met_is_said_before_rendering, enter, workplace_leave),
+    };
+    return cmocka_run_group_tests_name("plan", tests, NULL, NULL);
+}

@@ -1,0 +1,106 @@
+/* pays_nothing KIND RENDERER: renders a scene that uses no effect, for tests/plan/pays_nothing.sh to count
+ * instructions.
+ *
+ * KIND      smooth, flakes, unshadowed
+ * RENDERER  whole: the previewer; bare: see bare.h; both: both, and an error where a pixel differs
+ *           planned, smooth: the previewer from set-up to picture, with a budget; as --model auto and --model smooth
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bare.h"
+#include "preview/film.h"
+#include "preview/stage.h"
+#include "preview/tiles.h"
+#include "scenes.h"
+
+static int fail(const char *why)
+{
+    fprintf(stderr, "pays_nothing: %s\n", why);
+    return 1;
+}
+
+static scene plain_scene(const char *kind)
+{
+    static const float from[2][3] = { { 0.2F, 1.0F, 0.3F }, { -0.5F, 1.0F, 0.1F } };
+    scene s = scenes_empty();
+    scene_material flakes = scenes_flakes(0.6F, 1e7F), metal = scenes_matte(0.5F);
+    metal.metallic = 1.0F;
+    const int material = scenes_add_material(&s, strcmp(kind, "flakes") == 0 ? &flakes : &metal);
+    scenes_add_instance(&s, scenes_add_square(&s, material, 0.3F), NULL, 0);
+    scenes_add_instance(&s, scenes_add_sphere(&s, material, 0.1F, 32, 16), NULL, 1);
+    for (int i = 0; i < 2; ++i)
+        scenes_add_light(&s, SCENE_LIGHT_POINT, from[i], 1.0F);
+    return s;
+}
+
+static preview_options plain_options(const scene_camera *from)
+{
+    preview_options o = PREVIEW_OPTIONS_INIT;
+    o.width = o.height = 24;
+    o.spp = 4;
+    o.bounces = 0;
+    o.threads = 1;
+    o.camera = from;
+    return o;
+}
+
+static int render_planned(const scene *s, preview_options o, int model, report *r)
+{
+    image picture;
+    o.model = model;
+    o.accuracy = 0.02;
+    if (!preview_render(s, &o, &picture, NULL, r))
+        return fail(r->error);
+    image_free(&picture);
+    return 0;
+}
+
+static int render_apart(const scene *s, const preview_options *o, const char *kind, const char *renderer, report *r)
+{
+    stage st;
+    view v;
+    image whole = { 0 }, bare = { 0 };
+    preview_statistics unused;
+    ray_counts counts = { 0 };
+    const bool both = strcmp(renderer, "both") == 0;
+    if (!stage_set_up(&st, s, o, &unused, r) || !view_set_up(&v, &st, o, r) || !film_of_options(o, &whole, r) ||
+        !film_of_options(o, &bare, r))
+        return fail(r->error);
+    for (int i = 0; i < v.world.light_count; ++i)
+        v.lights[i].unshadowed = strcmp(kind, "unshadowed") == 0;
+    const tiles_job job = { .world = &v.world, .options = o, .samples = o->spp, .film = &whole };
+    if (strcmp(renderer, "bare") != 0)
+        tiles_render(&job, &counts);
+    if (strcmp(renderer, "whole") != 0)
+        bare_render(&v.world, &bare);
+    const size_t size = (size_t)(o->width * o->height * bare.channel_count) * sizeof *bare.pixels;
+    const bool same = !both || memcmp(whole.pixels, bare.pixels, size) == 0;
+    const bool lit = !both || whole.pixels[(size_t)(o->width * o->height / 2 * whole.channel_count)] > 0.0F;
+    image_free(&whole);
+    image_free(&bare);
+    view_take_down(&v);
+    stage_take_down(&st);
+    return same && lit ? 0 : fail("the bare renderer makes other pixels, or black ones");
+}
+
+int main(int argc, char **argv)
+{
+    static const float eye[3] = { 0.0F, 1.0F, 0.7F }, target[3] = { 0.0F, 0.0F, 0.0F };
+    report r = { 0 };
+    if (argc != 3)
+        return fail("expected KIND and RENDERER");
+    const scene_camera from = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, 0.12F);
+    const preview_options o = plain_options(&from);
+    scene s = plain_scene(argv[1]);
+    int code;
+    if (strcmp(argv[2], "planned") == 0)
+        code = render_planned(&s, o, PREVIEW_MODEL_AUTO, &r);
+    else if (strcmp(argv[2], "smooth") == 0)
+        code = render_planned(&s, o, GLINT_MODEL_SMOOTH, &r);
+    else
+        code = render_apart(&s, &o, argv[1], argv[2], &r);
+    scene_free(&s);
+    return code;
+}
