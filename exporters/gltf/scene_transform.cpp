@@ -9,10 +9,16 @@
 namespace
 {
 
+double axis_length(const float m[16], size_t axis)
+{
+    const float *a = &m[4 * axis];
+    return std::hypot(static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2]));
+}
+
 bool has_no_scale(const float m[16])
 {
-    for (size_t a = 0; a < 12; a += 4)
-        if (!(std::fabs(std::hypot(m[a], m[a + 1], m[a + 2]) - 1.0F) <= 1e-6F))
+    for (size_t axis = 0; axis < 3; axis++)
+        if (!(std::fabs(axis_length(m, axis) - 1.0) <= 1e-6))
             return false;
     return true;
 }
@@ -34,7 +40,7 @@ bool is_right_angled(const float m[16])
 {
     double length[3];
     for (size_t a = 0; a < 3; a++)
-        length[a] = std::hypot(m[4 * a], m[4 * a + 1], m[4 * a + 2]);
+        length[a] = axis_length(m, a);
     for (size_t a = 0; a < 3; a++) {
         const size_t b = (a + 1) % 3;
         double dot = 0.0;
@@ -61,7 +67,7 @@ std::array<float, 16> rigid(const float m[16])
         return out;
     }
     double z[3], y[3];
-    const double z_length = std::hypot(m[8], m[9], m[10]);
+    const double z_length = axis_length(m, 2);
     double dot = 0.0;
     for (size_t k = 0; k < 3; k++) {
         z[k] = static_cast<double>(m[8 + k]) / z_length;

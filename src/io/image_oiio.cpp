@@ -263,8 +263,8 @@ struct textures {
     textures &operator=(const textures &) = delete;
     ~textures()
     {
-        /* TextureSystem::destroy of OpenImageIO 2.4 tells the allocator that the object is one byte long. glibc does not
-         * listen; jemalloc, which Blender runs on, believes it and breaks its heap. */
+        /* TextureSystem::destroy of OpenImageIO 2.4 tells the allocator that the object is one byte long. glibc does
+         * not listen; jemalloc, which Blender runs on, believes it and breaks its heap. */
         system->~TextureSystem();
         ::operator delete(system);
         OIIO::ImageCache::destroy(cache);

@@ -180,7 +180,8 @@ int area_measure(area_light *l)
     return 1;
 }
 
-int area_contains(const area_light *l, vec3d direction)
+/* slack: how far beyond the rim a direction may lie, of its length. */
+static int lies_within(const area_light *l, vec3d direction, double slack)
 {
     if (l->kind == AREA_NOTHING || !(direction.z > 0.0))
         return 0;
@@ -188,16 +189,28 @@ int area_contains(const area_light *l, vec3d direction)
         const conic *c = &l->cone;
         const double z = vec3d_dot(direction, c->axis_z);
         const double x = vec3d_dot(direction, c->axis_x) / c->a, y = vec3d_dot(direction, c->axis_y) / c->b;
-        return z > 0.0 && x * x + y * y <= z * z;
+        const double reach = z * (1.0 + slack / c->b);
+        return z > 0.0 && x * x + y * y <= reach * reach;
     }
     int left = 0, right = 0;
+    const double length = slack > 0.0 ? slack * vec3d_length(direction) : 0.0;
     for (int i = 0; i < l->corner_count; i++) {
         const vec3d normal = vec3d_cross(l->corner[i], l->corner[(i + 1) % l->corner_count]);
-        const double side = vec3d_dot(normal, direction);
-        left |= side > 0.0;
-        right |= side < 0.0;
+        const double side = vec3d_dot(normal, direction), least = length > 0.0 ? length * vec3d_length(normal) : 0.0;
+        left |= side > least;
+        right |= side < -least;
     }
     return !(left && right) && vec3d_dot(l->middle, direction) > 0.0;
+}
+
+int area_contains(const area_light *l, vec3d direction)
+{
+    return lies_within(l, direction, 0.0);
+}
+
+int area_touches(const area_light *l, vec3d direction)
+{
+    return lies_within(l, direction, 1e-6);
 }
 
 int area_piece_count(const area_light *l)

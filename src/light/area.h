@@ -50,6 +50,8 @@ int area_measure(area_light *light);
 
 /* Whether a measured light lies in this direction (any length). */
 int area_contains(const area_light *light, vec3d direction);
+/* The same, or by less than a millionth beside it. */
+int area_touches(const area_light *light, vec3d direction);
 
 /* The boundary in pieces, which follow each other and close. */
 int area_piece_count(const area_light *light);

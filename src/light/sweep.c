@@ -185,7 +185,7 @@ static void add_mass(const sweep_node *n, void *user)
 
 double sweep_mass(const area_light *light, const sweep_map *map, vec3d peak)
 {
-    mass_sum s = { area_contains(light, peak) ? 1.0 : sweep_level(map, light->middle), 0.0 };
+    mass_sum s = { area_touches(light, peak) ? 1.0 : sweep_level(map, light->middle), 0.0 };
     sweep_each(light, map, add_mass, &s);
     return real_min(fabs(s.sum) / (2.0 * REAL_PI), 1.0);
 }

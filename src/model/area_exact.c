@@ -78,7 +78,7 @@ void area_facets_exact(const model_query *q, const area_light *light, area_facet
                             vec3d_of(q->wo),
                             s.distribution.kind == NDF_BECKMANN };
     const vec3d mirrored = { -(double)q->wo.x, -(double)q->wo.y, (double)q->wo.z };
-    s.v0 = area_contains(&seen, mirrored) ? 1.0 : sweep_level(&map, seen.middle);
+    s.v0 = area_touches(&seen, mirrored) ? 1.0 : sweep_level(&map, seen.middle);
     sweep_each(&seen, &map, add_spoke, &s);
     const double sign = s.sum.facets < 0.0 ? -1.0 : 1.0;
     *value = (area_facets){ .facets = sign * s.sum.facets,

@@ -111,6 +111,10 @@ void area_facets_fast(const model_query *q, const area_light *light, area_facets
     set_sides(&moved, scale, &sectors);
     set_arcs(&moved, scale, &sectors);
     sum_for_this_machine()(&lobe, &sectors, MOST_QUADS, &s);
+    if (s.is_uneven) {
+        area_facets_exact(q, light, value);
+        return;
+    }
     if (!(s.weight > 0.0F) || !(s.reflected > 0.0F) || !(s.facets > 0.0F))
         return;
     const double unit = moved.share * REAL_PI / (fit.determinant * (double)s.weight);

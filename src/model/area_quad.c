@@ -15,8 +15,8 @@
 
 /* A part is uneven if its quarters' shares of the reflection differ by this much of the whole. Chosen so that the
  * errors in docs/lights.md hold: glint study --lights draws errors and costs over it. */
-#define UNEVEN_GGX 0.15F
-#define UNEVEN_BECKMANN 0.06F
+#define UNEVEN_GGX 0.08F
+#define UNEVEN_BECKMANN 0.04F
 
 enum { MOST_DEPTH = 6 };
 
@@ -162,17 +162,17 @@ static float span_of(vfloat x)
     return (high[0] > high[2] ? high[0] : high[2]) - (low[0] < low[2] ? low[0] : low[2]);
 }
 
-static void add(quad_terms *sum, const quad_terms *more)
+static void add(quad_terms *sum, const quad_terms *more, float share)
 {
-    sum->weight += more->weight;
-    sum->reflected += more->reflected;
-    sum->fresnel[0] += more->fresnel[0];
-    sum->fresnel[1] += more->fresnel[1];
-    sum->facets += more->facets;
-    sum->x += more->x;
-    sum->y += more->y;
-    sum->z += more->z;
-    sum->cap += more->cap;
+    sum->weight += share * more->weight;
+    sum->reflected += share * more->reflected;
+    sum->fresnel[0] += share * more->fresnel[0];
+    sum->fresnel[1] += share * more->fresnel[1];
+    sum->facets += share * more->facets;
+    sum->x += share * more->x;
+    sum->y += share * more->y;
+    sum->z += share * more->z;
+    sum->cap += share * more->cap;
 }
 
 /* Quarter i: that at corner i, or the one in the middle. */
@@ -183,30 +183,37 @@ static part quarter(const part *t, int i)
                    i < 3 ? half : -half };
 }
 
-/* A part and what its four points add. */
+/* A part and what its four points add. share: of it in the sum. */
 typedef struct looked_at {
     part part;
     quad_terms terms;
+    float share;
     int depth;
 } looked_at;
 
-/* Divides a sector until its parts are even. *left: quads that may still be evaluated. */
+/* Divides a sector until its parts are even. A part that is little more uneven than it may be counts with its quarters
+ * half and half: where a light slides along a surface, nothing jumps. *left: quads that may still be evaluated. */
 static void refine(const quad_setting *l, const quad_sector *sector, const quad_terms *whole, float uneven, int *left,
                    quad_terms *sum)
 {
     looked_at stack[3 * MOST_DEPTH + 4];
     int count = 1;
-    stack[0] = (looked_at){ { 0.0F, 0.0F, 1.0F }, *whole, 0 };
+    stack[0] = (looked_at){ { 0.0F, 0.0F, 1.0F }, *whole, 1.0F, 0 };
     while (count > 0) {
         const looked_at one = stack[--count];
-        if (one.depth >= MOST_DEPTH || *left < 4 || !(span_of(one.terms.reflected) > uneven)) {
-            add(sum, &one.terms);
+        const float span = one.share * span_of(one.terms.reflected);
+        if (one.depth >= MOST_DEPTH || *left < 4 || !(span > uneven)) {
+            add(sum, &one.terms, one.share);
             continue;
         }
+        const float share = span < 2.0F * uneven ? (span - uneven) / uneven : 1.0F;
+        if (share < 1.0F)
+            add(sum, &one.terms, one.share * (1.0F - share));
         *left -= 4;
         for (int i = 0; i < 4; i++) {
             looked_at *const more = &stack[count++];
             more->part = quarter(&one.part, i);
+            more->share = one.share * share;
             more->depth = one.depth + 1;
             evaluate(l, sector, &more->part, &more->terms);
         }
@@ -235,7 +242,7 @@ void AREA_QUAD_SUM(const quad_lobe *lobe, const quad_light *light, int most_quad
         if (span_of(first[i].reflected) > uneven)
             refine(&setting, &light->sector[i], &first[i], uneven, &left, &sum);
         else
-            add(&sum, &first[i]);
+            add(&sum, &first[i], 1.0F);
     }
     *sums = (quad_sums){ sum_of(sum.weight), sum_of(sum.reflected), { sum_of(sum.fresnel[0]), sum_of(sum.fresnel[1]) },
                          sum_of(sum.facets), sum_of(sum.x),         sum_of(sum.y),

@@ -36,6 +36,7 @@ typedef struct quad_sums {
     float reflected;            /* f cos theta_i with F = 1 */
     float fresnel[2];           /* Schlick: the same times (1 - h.wi)^5; else times h.wi and its square */
     float facets, x, y, z, cap; /* of D / (4 h.wi), the same times h; half vectors, seen from above */
+    int is_uneven;              /* most_quads were not enough */
 } quad_sums;
 
 /* Sectors over which the reflection is uneven are divided until it is not, with at most most_quads more quads. */

@@ -1,4 +1,4 @@
-/* The share of a flat light's effect that nothing hides: shadow rays weighted by what their places add.
+/* The share of a shape's effect that nothing hides: shadow rays weighted by what their places add.
  *
  * Analytic light times the share of it that is visible (Heitz, Hill and McGuire 2018, "Combining Analytic Direct
  * Illumination and Stochastic Shadows"). The share is a quotient of two integrals over the light, of f cos V and of f
@@ -26,11 +26,21 @@ typedef struct candidate {
     double weight;
 } candidate;
 
-/* 1 / (density of the spread candidates, per steradian), cos |da| / d^2; 0 from behind. */
-static double steradians_per_area(const light *l, vec3 direction, double distance)
+/* A light and how the point sees it. */
+typedef struct target {
+    const light *light;
+    const light_view *view;
+} target;
+
+/* 1 / (density of the spread candidates, per steradian): cos |da| / d^2, 0 from behind, for a flat light; round ones
+ * are even over their cap. */
+static double steradians(const target *t, vec3 direction, double distance)
 {
+    const light *const l = t->light;
+    if (!light_is_area(l))
+        return (double)t->view->solid_angle_sr;
     const double cosine = v3_dot(direction, l->axis);
-    return cosine > 0.0 ? cosine / (distance * distance) : 0.0;
+    return cosine > 0.0 ? light_area_m2(l) * cosine / (distance * distance) : 0.0;
 }
 
 static bool has_sharp_layer(const shade_point *p)
@@ -42,8 +52,14 @@ static bool has_sharp_layer(const shade_point *p)
 }
 
 /* The place of the light that lies in a direction. */
-static bool meet(const light *l, vec3 origin, vec3 direction, double *distance)
+static bool meet(const target *t, vec3 origin, vec3 direction, double *distance)
 {
+    const light *const l = t->light;
+    if (!light_is_area(l)) {
+        *distance = t->view->distance;
+        const double cosine = v3_dot(direction, t->view->wi);
+        return cosine > 0.0 && v3_length(v3_mad(direction, t->view->wi, -cosine)) <= t->view->sine;
+    }
     const vec3 towards = v3_sub(l->position, origin);
     const double cosine = v3_dot(direction, l->axis);
     if (!(cosine > 0.0))
@@ -56,9 +72,9 @@ static bool meet(const light *l, vec3 origin, vec3 direction, double *distance)
 }
 
 /* The balance heuristic over all candidates of both kinds. */
-static void weigh(const shade_point *p, const light *l, bool sharp, candidate *c)
+static void weigh(const shade_point *p, const target *t, bool sharp, candidate *c)
 {
-    const double solid_angle = light_area_m2(l) * steradians_per_area(l, c->direction, c->distance);
+    const double solid_angle = steradians(t, c->direction, c->distance);
     c->weight = 0.0;
     if (!(solid_angle > 0.0))
         return;
@@ -66,20 +82,24 @@ static void weigh(const shade_point *p, const light *l, bool sharp, candidate *c
     c->weight = (double)shade_level(p, c->direction) / density;
 }
 
-static int spread(const shade_point *p, const light *l, vec3 origin, const double u[2], bool sharp, candidate *out)
+static int spread(const shade_point *p, const target *t, vec3 origin, const double u[2], bool sharp, candidate *out)
 {
     for (int i = 0; i < SPREAD; ++i) {
         const int column = i % 2, row = i / 2;
         const double place[2] = { 0.5 * (column + u[0]), 0.5 * (row + u[1]) };
-        const vec3 towards = v3_sub(light_point(l, place), origin);
-        out[i].distance = v3_length(towards);
-        out[i].direction = v3_normalize(towards);
-        weigh(p, l, sharp, &out[i]);
+        if (light_is_area(t->light)) {
+            const vec3 towards = v3_sub(light_point(t->light, place), origin);
+            out[i].distance = v3_length(towards);
+            out[i].direction = v3_normalize(towards);
+        } else {
+            light_pick(t->light, t->view, origin, place, &out[i].direction, &out[i].distance);
+        }
+        weigh(p, t, sharp, &out[i]);
     }
     return SPREAD;
 }
 
-static int reflect(const shade_point *p, const light *l, vec3 origin, uint32_t bits, candidate *out)
+static int reflect(const shade_point *p, const target *t, vec3 origin, uint32_t bits, candidate *out)
 {
     int count = 0;
     for (uint32_t i = 0; i < REFLECTED; ++i) {
@@ -88,10 +108,10 @@ static int reflect(const shade_point *p, const light *l, vec3 origin, uint32_t b
                                   hash_uniform(hash_combine(own, 3U)) };
         shade_direction reflected;
         candidate *const c = &out[count];
-        if (!shade_sample(p, hash_uniform(own), random, &reflected) || !meet(l, origin, reflected.wi, &c->distance))
+        if (!shade_sample(p, hash_uniform(own), random, &reflected) || !meet(t, origin, reflected.wi, &c->distance))
             continue;
         c->direction = reflected.wi;
-        weigh(p, l, true, c);
+        weigh(p, t, true, c);
         ++count;
     }
     return count;
@@ -133,13 +153,28 @@ static double visible_share(const world *w, const candidate *all, int count, vec
     return draw != NULL ? 1.0 : fmin(seen / (sum - skipped), 1.0); /* by rounding, none was drawn */
 }
 
-bool area_light_reaches(const world *w, const hit *h, const shade_point *p, const light *l, const sampler *random,
-                        uint32_t dimension, bool thorough, shade_area *area, ray_counts *counts)
+static shade_area shape_of(const target *t, vec3 point)
 {
-    *area = (shade_area){ .kind = l->kind == SCENE_LIGHT_DISK ? GLINT_AREA_DISK : GLINT_AREA_RECTANGLE,
-                          .center = v3_sub(l->position, h->position),
-                          .half_x = l->half_x,
-                          .half_y = l->half_y };
+    const light *const l = t->light;
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL)
+        return (shade_area){ .kind = GLINT_AREA_SUN,
+                             .center = t->view->wi,
+                             .radius = t->view->sine,
+                             .solid_angle_sr = t->view->solid_angle_sr };
+    const shade_area sphere = { .kind = GLINT_AREA_SPHERE, .center = v3_sub(l->position, point), .radius = l->radius };
+    if (!light_is_area(l))
+        return sphere;
+    return (shade_area){ .kind = l->kind == SCENE_LIGHT_DISK ? GLINT_AREA_DISK : GLINT_AREA_RECTANGLE,
+                         .center = sphere.center,
+                         .half_x = l->half_x,
+                         .half_y = l->half_y };
+}
+
+bool area_light_reaches(const world *w, const hit *h, const shade_point *p, const light *l, const light_view *view,
+                        const sampler *random, uint32_t dimension, bool thorough, shade_area *area, ray_counts *counts)
+{
+    const target t = { l, view };
+    *area = shape_of(&t, h->position);
     if (!shade_faces_area(p, area))
         return false;
     if (l->unshadowed)
@@ -151,9 +186,9 @@ bool area_light_reaches(const world *w, const hit *h, const shade_point *p, cons
     const vec3 origin = hit_leave(h, h->shadow_origin);
     const bool sharp = has_sharp_layer(p);
     candidate all[MOST_CANDIDATES];
-    int count = spread(p, l, origin, u, sharp, all);
+    int count = spread(p, &t, origin, u, sharp, all);
     if (sharp)
-        count += reflect(p, l, origin, bits, &all[count]);
+        count += reflect(p, &t, origin, bits, &all[count]);
     const double seen = visible_share(w, all, count, origin, thorough ? NULL : &draw[0], bits, counts);
     area->hidden = (float)(1.0 - seen);
     return seen > 0.0;

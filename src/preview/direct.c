@@ -10,7 +10,7 @@
 
 typedef struct light_query {
     light_view view;
-    shade_area area; /* where the light is one */
+    shade_area area; /* where the light is seen as a shape */
     bool is_area;
     glint_value value;
 } light_query;
@@ -38,10 +38,14 @@ static int gather(const world *w, const hit *h, const shade_point *p, const samp
         const light *const l = &w->lights[i];
         if (!light_see(l, h->position, &q->view))
             continue;
-        q->is_area = light_is_area(l);
+        const bool is_round = q->view.sine > 0.0 && shade_tells_shape(p, q->view.wi, q->view.sine);
+        q->is_area = light_is_area(l) || is_round;
+        if (is_round)
+            for (int c = 0; c < 3; ++c)
+                q->view.irradiance[c] *= (float)light_radiance_per_irradiance(&q->view);
         const bool lit =
             q->is_area
-                ? area_light_reaches(w, h, p, l, random, dimension + (uint32_t)i, thorough, &q->area, counts)
+                ? area_light_reaches(w, h, p, l, &q->view, random, dimension + (uint32_t)i, thorough, &q->area, counts)
                 : shade_faces(p, q->view.wi) && !in_shadow(w, h, l, &q->view, random, dimension + (uint32_t)i, counts);
         count += lit;
     }

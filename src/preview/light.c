@@ -50,6 +50,12 @@ light light_make(const scene_light *from)
     return l;
 }
 
+/* What a light that is seen as a shape may be: neither a point nor half of all directions. */
+static double shape_sine(double sine)
+{
+    return sine > SMALLEST_ANGLE && sine < 1.0 ? sine : 0.0;
+}
+
 static double spot_factor(const light *l, vec3 wi)
 {
     const double t = fmin(fmax(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
@@ -79,6 +85,7 @@ bool light_see(const light *l, vec3 position, light_view *out)
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
         out->wi = l->axis;
         out->distance = (double)INFINITY;
+        out->sine = shape_sine(l->cosine > 0.0 ? sqrt(fmax(1.0 - l->cosine * l->cosine, 0.0)) : 1.0);
         out->solid_angle_sr = l->solid_angle_sr;
         return set_irradiance(l, 1.0, out);
     }
@@ -90,13 +97,21 @@ bool light_see(const light *l, vec3 position, light_view *out)
     out->distance = distance;
     if (light_is_area(l)) {
         out->solid_angle_sr = 0.0F;
+        out->sine = 0.0;
         return v3_dot(towards, l->axis) > 0.0 && set_irradiance(l, 1.0, out);
     }
     /* A sphere of radius r: sin of its angular radius is r / d. Inside it, the cap is held below a hemisphere. */
     const double sine = fmin(l->radius / distance, 1.0);
+    out->sine = shape_sine(sine);
     out->solid_angle_sr = (float)clamp_cap(light_cap_sr(asin(sine)));
     const double cone = l->kind == SCENE_LIGHT_SPOT ? spot_factor(l, out->wi) : 1.0;
     return set_irradiance(l, cone * range_factor(distance, l->range) / (distance * distance), out);
+}
+
+double light_radiance_per_irradiance(const light_view *view)
+{
+    /* The cosine's integral over a cap around the normal is pi sin^2. */
+    return 1.0 / (PREVIEW_PI * view->sine * view->sine);
 }
 
 vec3 light_point(const light *l, const double u[2])

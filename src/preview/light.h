@@ -26,6 +26,7 @@ typedef struct light_view {
     double distance;      /* metres, infinite for a directional light */
     float irradiance[3];  /* on a surface that faces the light; no shadow. Rectangle, disk: radiance */
     float solid_angle_sr; /* (0, 2 pi); not of rectangle and disk */
+    double sine;          /* of the angular radius, of lights that are round and smaller than a hemisphere; else 0 */
 } light_view;
 
 /* Whether it has a flat shape, which is evaluated as a whole: see area_shadow.h. */
@@ -33,6 +34,9 @@ static inline bool light_is_area(const light *l)
 {
     return l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
 }
+
+/* Radiance of a light that is round, over what it sends to a surface that faces it. */
+double light_radiance_per_irradiance(const light_view *view);
 
 /* False when no light comes this way: behind a spot's cone or an area light, out of range, black. */
 bool light_see(const light *l, vec3 position, light_view *out);

@@ -61,16 +61,21 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);
 
-/* A flat light as the point sees it, in world axes. */
+/* A light as a shape as the point sees it, in world axes: sun, sphere, rectangle or disk. */
 typedef struct shade_area {
     glint_area_kind kind;
     vec3 center, half_x, half_y; /* center: from the point; it shines to the side of half_x x half_y */
+    double radius;               /* sphere; sun: sine of its angular radius */
+    float solid_angle_sr;        /* sun */
     float hidden;                /* share that something stands in front of */
 } shade_area;
 
 /* The same three for it: value per radiance, as glint_eval_area. */
 void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value);
 bool shade_faces_area(const shade_point *p, const shade_area *area);
+/* Whether a round light around wi (world, unit) has to be seen as a shape: it stands astride a layer's horizon, or the
+ * reflection changes over it. sine: of its angular radius. */
+bool shade_tells_shape(const shade_point *p, vec3 wi, double sine);
 /* Mean over the channels of f |cos theta_i| without single facets, for one of its directions. */
 float shade_level(const shade_point *p, vec3 wi);
 /* Density with which shade_sample draws wi, per steradian. */

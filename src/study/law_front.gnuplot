@@ -1,5 +1,5 @@
 stats 'law.csv' using 8 every ::1 nooutput
-set title sprintf("The mean of a binomial count: what it costs, how far off it is\n{/*0.8 truth: N p; worst of 37 pairs (N, p), %d draws each; bars: what that many draws leave open}", STATS_max)
+set title sprintf("The mean of a binomial count: what it costs, how far off it is\n{/*0.8 truth: N p; worst of 41 pairs (N, p), %d draws each; bars: what that many draws leave open}", STATS_max)
 set logscale xy
 set xlabel "ns a draw (one lane, twelve draws sharing N and p)\n{/*0.85 Choose libglint's own walk to a mean of 8: the whole law is nearer than with 2 or 5 for a nanosecond more.}"
 set ylabel 'worst error of the mean over N p'

@@ -1,19 +1,32 @@
 /* The study of lights of real size: where the fast integral is off and by how much, parts of a light against the whole
- * (Appendix C and Fig. 9 of Kneiphof and Klein 2024), and how counts converge to the smooth surface (Fig. 10). */
+ * (Appendix C and Fig. 9 of Kneiphof and Klein 2024), integrals replaced one by one (Fig. 7), and how counts converge
+ * to the smooth surface (Fig. 10). */
 #include "study/lights.h"
 
-extern const unsigned char lights_error_gnuplot[];
+extern const unsigned char lights_error_gnuplot[], lights_parts_gnuplot[], lights_replaced_gnuplot[],
+    lights_convergence_gnuplot[];
 
 static void measure(study_run *run)
 {
     lights_measure_errors(run, 0.0, 0.8);
     lights_measure_parts(run, 0.8, 0.9);
-    lights_measure_convergence(run, 0.9, 1.0);
+    lights_measure_replacement(run, 0.9, 0.91);
+    lights_measure_convergence(run, 0.91, 1.0);
 }
 
 static const study_figure figures[] = {
     { "lights_error", "Error of the fast integral over its exact value, one point a random light",
       lights_error_gnuplot },
+    { "lights_parts", "The parts of a rectangle add up to the whole, exactly but for the error of the integrals",
+      lights_parts_gnuplot },
+    { "lights_replaced",
+      "Along the floor in front of a panel: the radiance, and what a single glint sends, over what exact integrals "
+      "give",
+      lights_replaced_gnuplot },
+    { "lights_convergence",
+      "The deviation of a pixel falls with the root of the number of facets: points are measured, lines the binomial "
+      "law",
+      lights_convergence_gnuplot },
     { NULL, NULL, NULL },
 };
 

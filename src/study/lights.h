@@ -7,6 +7,7 @@
 /* Each goes on from `from` to `to`, shares of the whole study. */
 void lights_measure_errors(study_run *run, double from, double to);
 void lights_measure_parts(study_run *run, double from, double to);
+void lights_measure_replacement(study_run *run, double from, double to);
 void lights_measure_convergence(study_run *run, double from, double to);
 
 #endif

@@ -11,7 +11,8 @@ Other flakes, so the two agree only as draws of one law do. What makes that meas
   without the noise of sampling.
 - Flakes of a sixtieth of the surface's alpha: rougher ones widen the lobe, in Cycles as in libglint's explicit model.
 - A pixel is no whole number of cells wide, so that its borders cut cells everywhere. Where pixels and cells coincide, a pixel
-  shows whole flakes, and Cycles has up to 2.25 times the variance at 1 x 1: an accident of the scene, not of a model.
+  shows whole flakes, and Cycles has up to 2.25 times the variance at 1 x 1 (1.5 along each axis that coincides): an accident of
+  the scene, not of a model.
 """
 
 import math

@@ -125,9 +125,10 @@ def render(name="picture"):
 
 
 def render_with_cycles(name="cycles", samples=64, bounces=0):
-    """The same by Cycles, with what makes it a truth: see docs/blender.md."""
+    """The same by Cycles, with what makes it a truth: see docs/blender.md. Materials are diffuse from now on."""
     scene = bpy.context.scene
     before = scene.render.engine
+    make_lambertian()
     scene.render.engine = "CYCLES"
     settings = scene.cycles
     settings.samples, settings.use_adaptive_sampling, settings.use_denoising = samples, False, False
@@ -138,6 +139,17 @@ def render_with_cycles(name="cycles", samples=64, bounces=0):
         return render(name)
     finally:
         scene.render.engine = before
+
+
+def make_lambertian():
+    """Puts a Diffuse BSDF of the same colour in the place of every Principled BSDF, whose diffuse part is Burley's in Cycles."""
+    for material in bpy.data.materials:
+        tree = material.node_tree
+        node, old = tree.nodes.new("ShaderNodeBsdfDiffuse"), tree.nodes["Principled BSDF"].inputs["Base Color"]
+        node.inputs["Color"].default_value = old.default_value
+        if old.is_linked:
+            tree.links.new(old.links[0].from_socket, node.inputs["Color"])
+        tree.links.new(node.outputs["BSDF"], tree.nodes["Material Output"].inputs["Surface"])
 
 
 def black_world():

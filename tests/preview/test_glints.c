@@ -30,8 +30,8 @@ static scene flaky_floor(float facets_per_m2)
 /* Of the binomial law. */
 #define COUNTING_BIAS 2e-4
 
-/* Renders the floor with many seeds and compares the mean over them with so many times the smooth picture. */
-static void compare_means(scene *s, const preview_options *o, double factor)
+/* Renders the floor with many seeds and compares the mean over them with the smooth picture. */
+static void compare_means(scene *s, const preview_options *o)
 {
     double sum = 0.0, squares = 0.0, smooth = 0.0;
     for (uint32_t seed = 0; seed < SEEDS; ++seed) {
@@ -44,7 +44,6 @@ static void compare_means(scene *s, const preview_options *o, double factor)
         image_free(&i);
     }
     const double sigma = sqrt(fmax(squares - sum * sum, 0.0) / (SEEDS - 1));
-    smooth *= factor;
     /* Five standard errors; a test that could not see 3 percent of noise would be none. */
     assert_true(sigma < 0.006 * smooth);
     if (!(fabs(sum - smooth) <= 5.0 * sigma + COUNTING_BIAS * smooth))
@@ -59,30 +58,19 @@ static void the_mean_over_seeds_is_the_smooth_picture(void **state)
     preview_options o = pictures_options(&c);
     o.width = o.height = 96;
     o.spp = 1;
-    compare_means(&s, &o, 1.0);
+    compare_means(&s, &o);
     s.materials[0].glint.space = SCENE_SPACE_OBJECT;
-    compare_means(&s, &o, 1.0);
+    compare_means(&s, &o);
     s.materials[0].glint.layer = SCENE_LAYER_CLEARCOAT;
     s.materials[0].metallic = s.materials[0].specular = 0.0F; /* the base is black: all light comes from the coat */
     s.materials[0].base_color[0] = 0.0F;
     s.materials[0].clearcoat = 1.0F;
     s.materials[0].clearcoat_roughness = 0.5F;
-    compare_means(&s, &o, 1.0);
+    compare_means(&s, &o);
     scene_free(&s);
 }
 
-/* What a light of this size makes of D, as mirrors have it: over its cap, and not at its middle. */
-static double mean_over_light(const scene_light *l, float roughness)
-{
-    const float up[3] = { 0.0F, 0.0F, 1.0F };
-    /* The light's z axis points back at it; the floor's normal is y. */
-    const float wi[3] = { l->to_world[8], l->to_world[10], l->to_world[9] };
-    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-    o.surface.alpha_x = o.surface.alpha_y = roughness * roughness;
-    return facet_moments_of(&o, up, wi, 2.0 * 3.14159265358979 * (1.0 - cos(0.5 * (double)l->angular_diameter_rad)))
-        .mean;
-}
-
+/* The light is wide for the lobe, and both see its shape. */
 static void explicit_facets_make_the_picture_that_mirrors_under_a_round_light_must_make(void **state)
 {
     (void)state;
@@ -92,7 +80,7 @@ static void explicit_facets_make_the_picture_that_mirrors_under_a_round_light_mu
     o.width = o.height = 48;
     o.spp = 4;
     o.model = GLINT_MODEL_EXPLICIT;
-    compare_means(&s, &o, mean_over_light(&s.lights[0], 0.5F));
+    compare_means(&s, &o);
     scene_free(&s);
 }
 

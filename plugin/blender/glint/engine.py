@@ -71,7 +71,9 @@ class GlintRenderEngine(bpy.types.RenderEngine):
         try:
             self._render(depsgraph)
         except GlintError as problem:
+            # In the picture's own header, and for whoever called the operator.
             self.error_set(str(problem))
+            self.report({"ERROR"}, str(problem))
 
     def _render(self, depsgraph):
         if self.camera is None:
@@ -130,12 +132,15 @@ class GlintRenderEngine(bpy.types.RenderEngine):
         worker.start()
         while worker.is_alive():
             worker.join(LOOK_EVERY_S)
-            if self.test_break():
+            if self.shall_stop():
                 picture.cancel()
             self.update_progress(picture.progress * target / samples)
         if isinstance(outcome[0], GlintError):
             raise outcome[0]
         return outcome[0]
+
+    def shall_stop(self):
+        return self.test_break()
 
     def _show(self, picture, layer_name, passes, scale):
         result = self.begin_result(0, 0, picture.width, picture.height, layer=layer_name)

@@ -20,8 +20,6 @@ from .scene_world import World, world_of
 # From z up to y up, for columns.
 TURN = numpy.array(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)), numpy.float64)
 
-WITH_SURFACE = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-
 
 @dataclasses.dataclass
 class Mesh:
@@ -116,6 +114,13 @@ def _texcoords(mesh, layer):
     return uv
 
 
+def _slots(mesh):
+    """Slots of the materials of triangles; unsigned, since Blender has a fast way for its own type only."""
+    if len(mesh.materials) <= 1:
+        return numpy.zeros(len(mesh.loop_triangles), numpy.uint32)
+    return _get(mesh.loop_triangles, "material_index", numpy.uint32)
+
+
 def geometry_of(mesh):
     """Corners become vertices: normals and texture coordinates belong to corners."""
     mesh.calc_loop_triangles()
@@ -130,7 +135,7 @@ def geometry_of(mesh):
         normals=y_up(normals),
         texcoords=tuple(texcoords[:2]),
         indices=_get(mesh.loop_triangles, "loops", numpy.uint32, 3).ravel(),
-        slots=_get(mesh.loop_triangles, "material_index", numpy.int32),
+        slots=_slots(mesh),
         uv_names=tuple(layer.name for layer in layers),
         active_uv=min(active, 1),
     )
@@ -152,13 +157,14 @@ class Builder:
             self.warnings.append(text)
 
     def geometry(self, source):
-        # What modifiers and nodes make is data of its own; curves and text are told apart by their object.
-        key = (source.data.as_pointer(), 0 if source.type == "MESH" else source.original.as_pointer())
+        # What modifiers and nodes make is data of its own.
+        key = source.data.as_pointer()
         if key not in self.cache.geometry:
-            mesh = source.to_mesh()
-            has_triangles = mesh is not None and len(mesh.polygons) > 0
-            self.cache.geometry[key] = geometry_of(mesh) if has_triangles else None
-            source.to_mesh_clear()
+            # A mesh under edit lies elsewhere, and only a copy has it.
+            mesh = source.to_mesh() if source.data.is_editmode else source.data
+            self.cache.geometry[key] = geometry_of(mesh) if len(mesh.polygons) > 0 else None
+            if source.data.is_editmode:
+                source.to_mesh_clear()
         return key, self.cache.geometry[key]
 
     def mesh_number(self, source):
@@ -189,19 +195,15 @@ class Builder:
 
     def add(self, instance):
         source = instance.object
-        if not instance.show_self or not self.is_shown(instance):
+        if not instance.show_self:
             return
-        if source.type in WITH_SURFACE:
+        # What curves, text and metaballs evaluate to comes as a mesh of its own.
+        if isinstance(source.data, bpy.types.Mesh):
             self.add_surface(instance, source)
         elif source.type == "LIGHT":
             self.lights.append(light_of(source.data, instance.matrix_world, self.scale, self.warn))
         elif source.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL"}:
             self.warn(f"{source.name}: objects of type {source.type} are not rendered")
-
-    def is_shown(self, instance):
-        """A final render has only what is to be rendered; a viewport may hide more of it."""
-        shown = instance.parent if instance.is_instance else instance.object
-        return self.depsgraph.mode == "RENDER" or shown is None or shown.visible_get(view_layer=self.depsgraph.view_layer)
 
     def description(self):
         for instance in self.depsgraph.object_instances:
@@ -230,8 +232,8 @@ def describe(depsgraph, cache=None):
 
 
 def light_of(light, matrix, scale, warn):
-    """Watts as Blender means them: a point of P watts has the intensity P / (4 pi), a flat light of area A the radiance P /
-    (pi A), a sun its irradiance.
+    """Watts as Cycles means them: a point of P watts has the intensity P / (4 pi), a flat light of area A the radiance P /
+    (4 A), a sun its irradiance.
 
     Brightness is that of the same numbers in Cycles whatever the unit scale is: lengths shrink to metres, and intensities
     with their square.

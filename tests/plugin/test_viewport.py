@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The viewport of the engine in a window: it fills in, follows changes and the view, and gives its thread back.
+
+    xvfb-run -a -s "-screen 0 800x600x24" blender --factory-startup -P test_viewport.py -- FOLDER
+
+Writes FOLDER/viewport.png, a picture of the window, and ends with exit code 0 or 3.
+"""
+
+import os
+import sys
+import threading
+import time
+import traceback
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import bpy
+import numpy
+
+from blender_case import folder
+# Before the window opens.
+bpy.context.preferences.view.show_splash = False
+
+from engine_case import add_camera, add_light, add_plane, flakes, matte
+
+GIVE_UP_S = 60.0
+
+
+def area():
+    window = bpy.context.window_manager.windows[0]
+    return window, next(a for a in window.screen.areas if a.type == "VIEW_3D")
+
+
+# Every session that the engine began, the newest last.
+sessions = []
+
+
+def watch():
+    """Keeps the sessions of viewports, which are the engine's own otherwise."""
+    from glint import engine, viewport
+
+    class Watched(viewport.Session):
+        def __init__(self, redraw):
+            sessions.append(self)
+            super().__init__(redraw)
+
+    engine.Session = Watched
+
+
+def frame():
+    """The picture in the viewport once it is done, or None."""
+    return sessions[-1].frame if sessions and sessions[-1].is_done() else None
+
+
+def wait_for(what, condition):
+    """Gives Blender time until the condition holds."""
+    end = time.monotonic() + GIVE_UP_S
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited in vain for {what}")
+        yield 0.1
+
+
+def set_up():
+    import addon_utils
+
+    addon_utils.enable("glint", default_set=True)
+    watch()
+    for each in list(bpy.data.objects):
+        bpy.data.objects.remove(each)
+    add_plane(matte("floor", (0.3, 0.3, 0.35, 1.0)), 8.0)
+    bpy.ops.mesh.primitive_uv_sphere_add(location=(0.0, 0.0, 1.0), segments=64, ring_count=32)
+    bpy.ops.object.shade_smooth()
+    ball = bpy.context.object
+    ball.data.materials.append(flakes("ball", 300.0, space="OBJECT"))
+    ball.data.materials[0].node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.9, 0.5, 0.2, 1.0)
+    add_light("SUN", 3.0, rotation=(0.6, 0.3, 0.0), angle=0.05)
+    camera = add_camera((0.0, -6.0, 3.2), (1.2, 0.0, 0.0))
+    scene = bpy.context.scene
+    scene.camera, scene.glint.preview_samples = camera, 4
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.3, 0.5, 1.0)
+    scene.render.engine = "GLINT"
+    window, view = area()
+    view.spaces[0].region_3d.view_perspective = "CAMERA"
+    view.spaces[0].shading.type = "RENDERED"
+    return ball
+
+
+def script():
+    ball = set_up()
+    yield from wait_for("the first picture", lambda: frame() is not None)
+    first = frame().pixels.copy()
+    assert numpy.isfinite(first).all() and first[:, :3].max() > 0.5, "the view is black"
+    assert frame().samples == 4
+
+    path = os.path.join(folder(), "viewport.png")
+    window, view = area()
+    yield 0.5
+    with bpy.context.temp_override(window=window, area=view):
+        bpy.ops.screen.screenshot(filepath=path)
+    shot = bpy.data.images.load(path)
+    pixels = numpy.array(shot.pixels[:]).reshape(-1, 4)
+    assert pixels[:, :3].std() > 0.05, "the window shows one colour"
+
+    # A property is another picture, and set back the first again.
+    glint = ball.data.materials[0].glint
+    glint.seed = 7
+    ball.data.materials[0].update_tag()  # which a click in the panel does by itself
+    yield from wait_for("the picture of another seed", lambda: frame() is not None and not same(frame().pixels, first))
+    glint.seed = 0
+    ball.data.materials[0].update_tag()
+    yield from wait_for("the first picture again", lambda: frame() is not None and same(frame().pixels, first))
+
+    # What is changed while it renders interrupts it at once.
+    bpy.context.scene.glint.preview_samples = 65536
+    view.tag_redraw()
+    yield 1.0
+    assert frame() is None, "65536 samples cannot be done"
+    bpy.context.scene.glint.preview_samples = 4
+    view.tag_redraw()
+    yield from wait_for("the picture after the interruption", lambda: frame() is not None and same(frame().pixels, first))
+
+    # Turning the view.
+    view.spaces[0].region_3d.view_perspective = "PERSP"
+    yield 0.3
+    yield from wait_for("another view", lambda: frame() is not None and not same(frame().pixels, first))
+    view.spaces[0].region_3d.view_perspective = "ORTHO"
+    yield 0.3
+    yield from wait_for("an orthographic view", lambda: frame() is not None)
+
+    # A preview sphere, rendered by the engine.
+    material = bpy.data.materials["ball"]
+    material.asset_generate_preview()
+    yield from wait_for("a preview of the material", lambda: numpy.array(material.preview.image_pixels_float[:]).any())
+    icon = numpy.array(material.preview.image_pixels_float[:]).reshape(-1, 4)
+    assert icon[:, :3].std() > 0.05, "the preview is one colour"
+
+    view.spaces[0].shading.type = "SOLID"
+    yield 0.5
+    yield from wait_for("the thread to end", lambda: not any(t.name == "glint viewport" for t in threading.enumerate()))
+
+
+def same(a, b):
+    return a.shape == b.shape and numpy.array_equal(a, b)
+
+
+def step():
+    try:
+        return next(steps)
+    except StopIteration:
+        print("viewport: ok", flush=True)
+        os._exit(0)
+    except BaseException:
+        traceback.print_exc()
+        sys.stderr.flush()
+        os._exit(3)
+
+
+steps = script()
+bpy.app.timers.register(step, first_interval=1.0)
