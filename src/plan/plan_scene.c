@@ -122,23 +122,16 @@ static float seen_of(const glint_plan *p, uint32_t light)
     return seen;
 }
 
+/* No survey proves that there are none: a pixel whose shadow is missed is brighter than it should be by any factor. */
 static void decide_shadows(glint_plan *p, uint32_t index)
 {
     const glint_plan_light *const l = &p->summary.lights[index];
-    const char *const name = l->name ? l->name : "a light";
-    glint_decision d = { GLINT_EFFECT_SHADOWS, -1, (int32_t)index, 0, "none", "", 0.0F, 0.0F, 0.0F };
     const float rays = (float)l->shadow_rays / fmaxf((float)p->summary.pixel_count, 1.0F);
-    /* A pixel whose shadow is missed is off by all of its light. */
-    const double missed = l->shadow_rays > 0 ? sqrt(RULE_OF_THREE / l->shadow_rays) : 0.0;
-    p->shadows[index] = 1;
-    if (l->blocked_rays == 0 && missed < plan_left(p, 3)) {
-        p->shadows[index] = 0;
-        d.error = (float)missed;
-        plan_decide(p, d, "none of %u rays to %s was blocked", l->shadow_rays, name);
-        return;
-    }
-    plan_decide(p, switched_on(d, "traced", rays * plan_costs[PLAN_COST_SHADOW_RAY]),
-                "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays, name);
+    const glint_decision d = {
+        GLINT_EFFECT_SHADOWS, -1, (int32_t)index, 1, "traced", "", rays * plan_costs[PLAN_COST_SHADOW_RAY], 0.0F, 0.0F
+    };
+    plan_decide(p, d, "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays,
+                l->name ? l->name : "a light");
 }
 
 /* All materials find the light of shapes in the same way. */
@@ -191,8 +184,10 @@ void plan_lights(glint_plan *p)
     float spent = 0.0F;
     for (uint32_t m = 0; m < p->summary.material_count; m++)
         p->materials[m].method = method;
-    for (uint32_t i = 0; i < p->summary.light_count; i++)
+    for (uint32_t i = 0; i < p->summary.light_count; i++) {
+        p->shadows[i] = 1;
         decide_light(p, i, method, ltc_error, &spent);
+    }
     for (uint32_t i = 0; i < p->summary.light_count; i++)
         if (p->summary.lights[i].shadow_rays > 0)
             decide_shadows(p, i);

@@ -93,6 +93,14 @@ static radiance look_at_light(const world *w, int index, bool shadowed, const ve
     return sum;
 }
 
+/* Where its shape is told, and how its light is found follows from that. */
+static bool is_shape(const world *w, int index, const vertex *v)
+{
+    light_view view;
+    return index < w->light_count && light_see(&w->lights[index], v->hit.position, &view) && view.sine > 0.0 &&
+           shade_tells_shape(&v->point, view.wi, view.sine);
+}
+
 static void note_light(tally *t, int index, const vertex *v, const sampler *random, double pixel)
 {
     const world *const w = t->world;
@@ -106,6 +114,8 @@ static void note_light(tally *t, int index, const vertex *v, const sampler *rand
         to->shadow_rays += (uint32_t)counts.shadow_rays;
         to->blocked_rays += level(seen.smooth) < level(all.smooth);
     }
+    if (is_shape(w, index, v))
+        to->kind = GLINT_PLAN_LIGHT_SHAPE;
     const double evals = (double)(counts.glint_evals + counts.smooth_evals);
     pair->seen += (float)evals;
     if (!(facets.count > 0.0F))

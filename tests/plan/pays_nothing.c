@@ -29,7 +29,6 @@ static scene plain_scene(const char *kind)
     metal.metallic = 1.0F;
     const int material = scenes_add_material(&s, strcmp(kind, "flakes") == 0 ? &flakes : &metal);
     scenes_add_instance(&s, scenes_add_square(&s, material, 0.3F), NULL, 0);
-    scenes_add_instance(&s, scenes_add_sphere(&s, material, 0.1F, 32, 16), NULL, 1);
     for (int i = 0; i < 2; ++i)
         scenes_add_light(&s, SCENE_LIGHT_POINT, from[i], 1.0F);
     return s;
