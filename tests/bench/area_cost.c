@@ -131,7 +131,7 @@ static void run(void *user)
 static void race_kinds(FILE *json, const char *title, const int *kinds, size_t count, int rounds)
 {
     static cost_runner runners[KINDS];
-    racer racers[KINDS];
+    racer racers[KINDS] = { { NULL, NULL, NULL } };
     race_result result[KINDS];
     for (size_t i = 0; i < count; i++) {
         make_cases(runners[i].cases, kinds[i]);
