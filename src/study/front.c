@@ -21,7 +21,7 @@ static int by_cost(const void *a, const void *b)
 
 static void mark_front(study_setting *settings, int count)
 {
-    double nearest = INFINITY;
+    double nearest = (double)INFINITY;
     for (int i = 0; i < count; ++i) {
         settings[i].on_front = settings[i].error < nearest;
         nearest = fmin(nearest, settings[i].error);

@@ -76,7 +76,7 @@ static double kolmogorov(const float *draws, int count, double trials, double p)
     double from, *cumulative, worst = 0.0;
     const int ks = exact_cdf(trials, p, &from, &cumulative);
     if (!cumulative)
-        return NAN;
+        return (double)NAN;
     int below = 0;
     for (int i = 0; i < ks; i++) {
         while (below < count && (double)draws[below] <= from + i)

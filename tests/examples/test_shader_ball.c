@@ -127,7 +127,7 @@ static void a_metre_of_texture_is_a_metre_of_surface(void **state)
         const scene_mesh *mesh = &ball.meshes[m];
         for (uint32_t i = 0; i < mesh->triangle_count; i++) {
             const triangle t = triangle_of(mesh, i);
-            double nearest = INFINITY;
+            double nearest = (double)INFINITY;
             for (int c = 0; c < 3; c++)
                 nearest = fmin(nearest, hypot(t.position[c][0], t.position[c][2]));
             if (nearest < pole_radius * 1.25)

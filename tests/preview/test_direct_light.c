@@ -95,7 +95,7 @@ static void a_spot_light_fades_from_its_inner_to_its_outer_cone(void **state)
     for (int x = 0; x < 201; ++x) {
         const double away = fabs((x - 100) * 3.2 / 201.0);
         const double pixel = 3.2 / 201.0; /* the sample may lie anywhere in it, across as well */
-        double low = INFINITY, high = 0.0;
+        double low = (double)INFINITY, high = 0.0;
         for (int k = 0; k <= 20; ++k) {
             const double at = fabs(away + pixel * (k / 20.0 - 0.5)), d = hypot(hypot(at, pixel / 2), 2.0);
             const double cosine = 2.0 / hypot(at, 2.0);

@@ -70,7 +70,7 @@ static void counts_of_any_size_keep_their_mean(void **state)
             if (mean < 0.4L)
                 continue;
             wide sum = 0.0L;
-            double least = INFINITY, most = 0.0;
+            double least = (double)INFINITY, most = 0.0;
             for (int s = 0; s < STRATA; s++) {
                 const double x =
                     draw(trials[i], chances[k], (int32_t)(INT32_MIN + 65536U * (uint32_t)s + 32768U), 0.5F);
