@@ -57,19 +57,12 @@ void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t c
 void counting_alone(const counting_points *points, size_t count, float *factor, float *facets)
 {
     for (size_t i = 0; i < count; i++) {
-        counting_copies copies;
-        const counting_points same = counting_copy(points, i, &copies);
-        const counting_pixel pixel = counting_pixel_of(&same, 0);
-        vuint cell[GRID_CELLS];
-        vfloat weight[GRID_CELLS];
-        const vfloat share = counting_grids_apart(&same, &pixel, cell, weight);
-        const angular_lattice lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
-        const vfloat p = load_f(same.p), drawn = pixel.ellipse.area * pixel.density * ANGULAR_SHARE;
-        const binomial_chance chance = binomial_chance_of(p);
-        const vfloat counts = count_grid(&lattice, cell, weight, &chance, drawn * share);
-        const vfloat f = counting_factor(counting_across(counts), drawn, p);
-        factor[i] = pixel.area[0] < LEAST_AREA ? 1.0F : f[0];
-        facets[i] = pixel.area[0] * pixel.density[0];
+        counting_apart a;
+        counting_take_apart(points, i, &a);
+        const binomial_chance chance = binomial_chance_of(a.p);
+        const vfloat counts = count_grid(&a.lattice, a.cell, a.weight, &chance, a.drawn * a.share);
+        factor[i] = counting_together(&a, counting_factor(counting_across(counts), a.drawn, a.p));
+        facets[i] = a.pixel.area[0] * a.pixel.density[0];
     }
 }
 

@@ -146,24 +146,42 @@ static inline counting_points counting_copy(const counting_points *from, size_t 
                               to->density, to->seed, to->hx,   to->hy,   to->cap,  to->p };
 }
 
-/* Grid g in lane g: its cells and their weights. Returns its share. */
-static inline vfloat counting_grids_apart(const counting_points *same, const counting_pixel *pixel,
-                                          vuint cell[GRID_CELLS], vfloat weight[GRID_CELLS])
+/* What a point is to its four grids, grid g in lane g. */
+typedef struct counting_apart {
+    counting_pixel pixel;
+    angular_lattice lattice;
+    vuint cell[GRID_CELLS];
+    vfloat weight[GRID_CELLS];
+    vfloat drawn, share, p; /* N times the angular share, and the grid's part of it */
+} counting_apart;
+
+static inline void counting_take_apart(const counting_points *points, size_t i, counting_apart *a)
 {
-    const grid_shape shape = grid_shape_of(&pixel->ellipse);
+    counting_copies copies;
+    const counting_points same = counting_copy(points, i, &copies);
+    a->pixel = counting_pixel_of(&same, 0);
+    const grid_shape shape = grid_shape_of(&a->pixel.ellipse);
     grid_vertex all[GRID_COUNT];
     vfloat shares[GRID_COUNT];
     grid_tetrahedron(&shape, all, shares);
     grid_vertex own = all[0];
-    vfloat share = shares[0];
+    a->share = shares[0];
     for (int g = 1; g < GRID_COUNT; g++) {
         own.direction[g] = all[g].direction[g];
         own.ratio[g] = all[g].ratio[g];
         own.level[g] = all[g].level[g];
-        share[g] = shares[g][g];
+        a->share[g] = shares[g][g];
     }
-    grid_cells(&own, load_d(same->u), load_d(same->v), load_u(same->seed), cell, weight);
-    return share;
+    grid_cells(&own, load_d(same.u), load_d(same.v), load_u(same.seed), a->cell, a->weight);
+    a->lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
+    a->drawn = a->pixel.ellipse.area * a->pixel.density * ANGULAR_SHARE;
+    a->p = load_f(same.p);
+}
+
+/* A pixel without area shows no single facet. */
+static inline float counting_together(const counting_apart *a, vfloat factor)
+{
+    return a->pixel.area[0] < LEAST_AREA ? 1.0F : factor[0];
 }
 
 /* The sum over the grids, in their order, in every lane. */

@@ -6,28 +6,10 @@
 #include <string.h>
 
 #include <cmocka.h>
-#include <jansson.h>
 
+#include "printed_document.h"
 #include "run_glint.h"
 #include "workplace.h"
-
-static int enter(void **state)
-{
-    const int result = workplace_enter(state);
-    if (result == 0)
-        scene_write("plane");
-    return result;
-}
-
-static json_t *document_of(const outcome *o)
-{
-    assert_exit(o, 0);
-    json_error_t error;
-    json_t *d = json_loads(o->out, JSON_REJECT_DUPLICATES, &error);
-    if (!d)
-        fail_msg("%s in:\n%s", error.text, o->out);
-    return d;
-}
 
 static void inspect_names_what_is_in_the_file(void **state)
 {
@@ -39,7 +21,7 @@ static void inspect_names_what_is_in_the_file(void **state)
     assert_says(o.out, "night");
     outcome_free(&o);
     o = glint_run(NULL, "inspect", "--json", "plane.gltf");
-    json_t *d = document_of(&o);
+    json_t *d = printed_document(&o);
     assert_true(json_is_object(d));
     assert_says(o.out, "panel");
     json_decref(d);
@@ -56,7 +38,7 @@ static void materials_lists_every_preset(void **state)
     };
     outcome lines = glint_run(NULL, "materials"), json = glint_run(NULL, "materials", "--json");
     assert_exit(&lines, 0);
-    json_t *all = document_of(&json);
+    json_t *all = printed_document(&json);
     assert_true(json_array_size(all) >= sizeof names / sizeof names[0]);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         assert_says(lines.out, names[i]);
@@ -86,7 +68,7 @@ static void material_is_shown_in_words_and_units(void **state)
     assert_says(o.out, "0.5 (alpha 0.25)");
     outcome_free(&o);
     o = glint_run(NULL, "materials", "mine.json", "--json");
-    json_t *d = document_of(&o);
+    json_t *d = printed_document(&o);
     assert_true(json_number_value(json_object_get(d, "glint_density_per_m2")) == 1e8);
     assert_true(json_number_value(json_object_get(d, "roughness")) == 0.5);
     json_decref(d);
@@ -102,7 +84,7 @@ static void glints_of_both_layers_are_shown(void **state)
     assert_says(o.out, "in the clear coat as well:");
     assert_says(o.out, "7e+08");
     assert_says(o.out, "1.4e+06");
-    json_t *d = document_of(&json);
+    json_t *d = printed_document(&json);
     assert_true(json_number_value(json_object_get(d, "glint_density_per_m2")) == 7e8);
     assert_true(json_number_value(json_object_get(json_object_get(d, "coat"), "glint_density_per_m2")) == 1.4e6);
     json_decref(d);
@@ -115,7 +97,7 @@ static void preset_is_shown_with_its_title_and_source(void **state)
     (void)state;
     outcome list = glint_run(NULL, "materials", "--json"), o = glint_run(NULL, "materials", "snow");
     outcome json = glint_run(NULL, "materials", "snow", "--json");
-    json_t *all = document_of(&list), *d = document_of(&json);
+    json_t *all = printed_document(&list), *d = printed_document(&json);
     assert_exit(&o, 0);
     assert_says(o.out, json_string_value(json_object_get(d, "title")));
     for (size_t k = 0; k < json_array_size(all); ++k)
@@ -144,12 +126,13 @@ static void unknown_preset_lists_the_near_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(inspect_names_what_is_in_the_file, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(materials_lists_every_preset, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(material_is_shown_in_words_and_units, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(glints_of_both_layers_are_shown, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(preset_is_shown_with_its_title_and_source, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(unknown_preset_lists_the_near_names, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(inspect_names_what_is_in_the_file, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(materials_lists_every_preset, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(material_is_shown_in_words_and_units, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(glints_of_both_layers_are_shown, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(preset_is_shown_with_its_title_and_source, workplace_enter_plane,
+                                        workplace_leave),
+        cmocka_unit_test_setup_teardown(unknown_preset_lists_the_near_names, workplace_enter_plane, workplace_leave),
     };
     return cmocka_run_group_tests_name("describe", tests, NULL, NULL);
 }

@@ -8,28 +8,10 @@
 #include <string.h>
 
 #include <cmocka.h>
-#include <jansson.h>
 
+#include "printed_document.h"
 #include "run_glint.h"
 #include "workplace.h"
-
-static int enter(void **state)
-{
-    const int result = workplace_enter(state);
-    if (result == 0)
-        scene_write("plane");
-    return result;
-}
-
-static json_t *document_of(const outcome *o)
-{
-    assert_exit(o, 0);
-    json_error_t error;
-    json_t *d = json_loads(o->out, JSON_REJECT_DUPLICATES, &error);
-    if (!d)
-        fail_msg("%s in:\n%s", error.text, o->out);
-    return d;
-}
 
 /* The keys that programs rely on, and shares of time that add up to one. */
 static void assert_is_plan(const json_t *plan)
@@ -60,7 +42,7 @@ static void plan_is_a_table_and_a_document(void **state)
     assert_says(o.out, "budget of 0.02");
     outcome_free(&o);
     o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--accuracy", "0.1", "--json");
-    json_t *d = document_of(&o);
+    json_t *d = printed_document(&o);
     assert_true(json_number_value(json_object_get(d, "accuracy")) == 0.1);
     assert_is_plan(json_object_get(d, "plan"));
     json_decref(d);
@@ -73,14 +55,14 @@ static void render_says_what_was_planned(void **state)
 {
     (void)state;
     outcome o = glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "16x16", "--spp", "4", "--json");
-    json_t *d = document_of(&o);
+    json_t *d = printed_document(&o);
     assert_true(json_number_value(json_object_get(d, "accuracy")) == 0.02);
     assert_is_plan(json_object_get(d, "plan"));
     json_decref(d);
     outcome_free(&o);
     o = glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "16x16", "--spp", "4", "--accuracy", "0",
                   "--json");
-    d = document_of(&o);
+    d = printed_document(&o);
     assert_null(json_object_get(d, "plan"));
     json_decref(d);
     outcome_free(&o);
@@ -100,9 +82,10 @@ static void budget_that_is_not_met_is_said_before_rendering(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(plan_is_a_table_and_a_document, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(render_says_what_was_planned, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(budget_that_is_not_met_is_said_before_rendering, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(plan_is_a_table_and_a_document, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(render_says_what_was_planned, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(budget_that_is_not_met_is_said_before_rendering, workplace_enter_plane,
+                                        workplace_leave),
     };
     return cmocka_run_group_tests_name("plan", tests, NULL, NULL);
 }

@@ -21,14 +21,6 @@
 
 #define SMALL "--size", "48x32", "--spp", "4"
 
-static int enter(void **state)
-{
-    const int result = workplace_enter(state);
-    if (result == 0)
-        scene_write("plane");
-    return result;
-}
-
 /* Runs and expects success. */
 #define render(...)                                                                                                    \
     do {                                                                                                               \
@@ -301,19 +293,22 @@ static void terminal_shows_a_bar_and_then_the_result(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(one_thread_and_two_give_the_same_bytes, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(second_render_gives_the_same_bytes_over_the_first, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(options_reach_the_picture, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(camera_can_be_named_or_counted, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(tile_is_a_part_of_the_whole_picture, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(aov_adds_the_named_channels, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(exposure_brightens_the_png_alone, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(json_is_one_document_about_the_render, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(json_tells_an_error_as_well, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(file_names_may_hold_anything, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(options_may_follow_and_precede_the_scene, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(log_without_a_terminal_stays_plain, enter, workplace_leave),
-        cmocka_unit_test_setup_teardown(terminal_shows_a_bar_and_then_the_result, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(one_thread_and_two_give_the_same_bytes, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(second_render_gives_the_same_bytes_over_the_first, workplace_enter_plane,
+                                        workplace_leave),
+        cmocka_unit_test_setup_teardown(options_reach_the_picture, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(camera_can_be_named_or_counted, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(tile_is_a_part_of_the_whole_picture, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(aov_adds_the_named_channels, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(exposure_brightens_the_png_alone, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(json_is_one_document_about_the_render, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(json_tells_an_error_as_well, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(file_names_may_hold_anything, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(options_may_follow_and_precede_the_scene, workplace_enter_plane,
+                                        workplace_leave),
+        cmocka_unit_test_setup_teardown(log_without_a_terminal_stays_plain, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(terminal_shows_a_bar_and_then_the_result, workplace_enter_plane,
+                                        workplace_leave),
     };
     return cmocka_run_group_tests_name("render", tests, NULL, NULL);
 }

@@ -154,3 +154,11 @@ void scene_write(const char *base)
     snprintf(path, sizeof path, "%s.gltf", base);
     file_write_text(path, scene_text);
 }
+
+int workplace_enter_plane(void **state)
+{
+    const int result = workplace_enter(state);
+    if (result == 0)
+        scene_write("plane");
+    return result;
+}

@@ -22,5 +22,7 @@ int folder_count(const char *path);
 /* A square metre in the plane y = 0 with the material "panel" under a directional light, seen from above by the cameras
  * "Main" and "Close", with the variants "day" and "night": BASE.gltf, and plane.bin beside it. */
 void scene_write(const char *base);
+/* workplace_enter, and the scene as plane.gltf there. */
+int workplace_enter_plane(void **state);
 
 #endif
