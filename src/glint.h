@@ -582,8 +582,6 @@ typedef struct glint_plan_outcome {
 GLINT_API glint_plan_outcome glint_plan_result(const glint_plan *plan);
 /* Takes out of the options of a layer of a material what the plan leaves out: model, deviations, area_light_method. */
 GLINT_API void glint_plan_cut(const glint_plan *plan, uint32_t material, glint_material_options *options);
-/* 1: the light needs shadow rays. */
-GLINT_API int glint_plan_shadows(const glint_plan *plan, uint32_t light);
 
 #ifdef __cplusplus
 }

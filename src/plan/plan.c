@@ -164,8 +164,7 @@ static glint_plan *make(const glint_plan_summary *s)
     const size_t materials = s->material_count, lights = s->light_count;
     const size_t decisions = materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
     /* One piece: the plan, then its arrays, those with pointers or larger members first. */
-    const size_t size = sizeof(glint_plan) + decisions * sizeof(glint_decision) + materials * sizeof(plan_material) +
-                        lights * sizeof(int);
+    const size_t size = sizeof(glint_plan) + decisions * sizeof(glint_decision) + materials * sizeof(plan_material);
     glint_plan *const p = a.allocate(size, a.user);
     if (!p)
         return NULL;
@@ -174,7 +173,6 @@ static glint_plan *make(const glint_plan_summary *s)
     p->allocator = a;
     p->decisions = (glint_decision *)(p + 1);
     p->materials = (plan_material *)(p->decisions + decisions);
-    p->shadows = (int *)(p->materials + materials);
     p->capacity = (uint32_t)decisions;
     return p;
 }
@@ -263,9 +261,4 @@ void glint_plan_cut(const glint_plan *plan, uint32_t material, glint_material_op
     options->smooth_deviation = m->smooth_deviation;
     options->draw_deviation = m->draw_deviation;
     options->area_light_method = m->method;
-}
-
-int glint_plan_shadows(const glint_plan *plan, uint32_t light)
-{
-    return light >= plan->summary.light_count || plan->shadows[light];
 }

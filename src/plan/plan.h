@@ -23,7 +23,6 @@ struct glint_plan {
     glint_plan_outcome outcome;
     double variance; /* of all errors so far */
     plan_material *materials;
-    int *shadows; /* of each light */
     glint_decision *decisions;
     uint32_t count, capacity;
 };

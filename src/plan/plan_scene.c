@@ -184,10 +184,8 @@ void plan_lights(glint_plan *p)
     float spent = 0.0F;
     for (uint32_t m = 0; m < p->summary.material_count; m++)
         p->materials[m].method = method;
-    for (uint32_t i = 0; i < p->summary.light_count; i++) {
-        p->shadows[i] = 1;
+    for (uint32_t i = 0; i < p->summary.light_count; i++)
         decide_light(p, i, method, ltc_error, &spent);
-    }
     for (uint32_t i = 0; i < p->summary.light_count; i++)
         if (p->summary.lights[i].shadow_rays > 0)
             decide_shadows(p, i);

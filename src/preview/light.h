@@ -16,7 +16,7 @@ typedef struct light {
     double radius;                  /* metres: point and spot */
     double cosine;                  /* directional: of its angular radius */
     float solid_angle_sr;           /* directional */
-    bool unshadowed;                /* a plan found that nothing stands in its way */
+    bool unshadowed;                /* what it would bring if nothing stood in its way: for whoever compares */
 } light;
 
 light light_make(const scene_light *from);

@@ -1,10 +1,9 @@
-/* Looks at the view, makes its plan, and lets the world obey: materials that leave out, fewer bounces, fewer shadows.
- */
+/* Looks at the view, makes its plan, and lets the world obey: materials that leave out, fewer bounces. */
 #include "preview/planned.h"
 
 #include "preview/survey.h"
 
-bool planned_make(planned *p, const preview_options *options, world *w, light *lights, report *r)
+bool planned_make(planned *p, const preview_options *options, world *w, report *r)
 {
     survey seen;
     char message[256] = "";
@@ -19,8 +18,6 @@ bool planned_make(planned *p, const preview_options *options, world *w, light *l
     w->bounces = (int)glint_plan_result(p->plan).bounces;
     if (w->bounces == 0)
         w->emitters = NULL;
-    for (int i = 0; i < w->light_count; ++i)
-        lights[i].unshadowed = !glint_plan_shadows(p->plan, (uint32_t)i);
     return made;
 }
 

@@ -9,9 +9,9 @@ typedef struct planned {
     materials materials;
 } planned;
 
-/* Plans for options->accuracy and makes *w, with its lights, obey. What *w points to then belongs to *p. Whether it
+/* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it
  * succeeds or not, planned_free frees what there is. */
-bool planned_make(planned *p, const preview_options *options, world *w, light *lights, report *r);
+bool planned_make(planned *p, const preview_options *options, world *w, report *r);
 void planned_free(planned *p);
 
 #endif

@@ -162,7 +162,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
     return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
-           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, v->lights, r));
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, r));
 }
 
 void view_take_down(view *v)
@@ -244,7 +244,7 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
               view_set_up(&v, &st, options, r);
     /* A view that leaves nothing out has not been looked at. */
     if (ok && v.planned.plan == NULL)
-        ok = planned_make(&v.planned, options, &v.world, v.lights, r);
+        ok = planned_make(&v.planned, options, &v.world, r);
     if (ok) {
         *plan = v.planned.plan;
         v.planned.plan = NULL;
