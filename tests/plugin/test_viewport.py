@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The viewport of the engine in a window: it fills in, and follows a change of the flakes.
+"""The viewport of the engine in a window: it fills in, follows a change of the flakes, drops what it does for a turn of the view,
+and leaves no thread behind.
 
     xvfb-run -a -s "-screen 0 800x600x24" blender --factory-startup -P test_viewport.py -- FOLDER
 
@@ -8,6 +9,7 @@ Writes FOLDER/viewport.png, a picture of the window, and ends with exit code 0 o
 
 import os
 import sys
+import threading
 import time
 import traceback
 
@@ -23,6 +25,7 @@ bpy.context.preferences.view.show_splash = False
 from engine_case import add_camera, add_light, add_plane, flakes, matte
 
 GIVE_UP_S = 150.0
+MANY_SAMPLES = 4096  # of this view they take minutes
 
 
 def area():
@@ -106,6 +109,31 @@ def script():
     glint.seed = 7
     ball.data.materials[0].update_tag()  # which a click in the panel does by itself
     yield from wait_for("the picture of another seed", lambda: frame() is not None and not same(frame().pixels, first))
+    yield from turn_while_it_works(view)
+    yield from leave(view)
+
+
+def turn_while_it_works(view):
+    """A picture that would take minutes makes room at once."""
+    settings = bpy.context.scene.glint
+    settings.preview_samples = MANY_SAMPLES
+    view.tag_redraw()  # which a click in the panel does by itself
+    yield from wait_for("a picture of many samples to begin", lambda: sessions[-1].frame.view.samples == MANY_SAMPLES)
+    assert not sessions[-1].is_done()
+    settings.preview_samples = 4
+    view.spaces[0].region_3d.view_perspective = "PERSP"
+    view.tag_redraw()
+    before = sessions[-1].frame.view.camera
+    yield from wait_for("the picture of another view", lambda: frame() is not None and frame().samples == 4
+                        and bytes(frame().view.camera) != bytes(before))
+
+
+def leave(view):
+    """Without a rendered view there is no engine, and its thread and scene are gone."""
+    view.spaces[0].shading.type = "SOLID"
+    view.tag_redraw()
+    yield from wait_for("the thread of the viewport to end",
+                        lambda: not any(thread.name == "glint viewport" for thread in threading.enumerate()))
 
 
 def same(a, b):

@@ -6,6 +6,7 @@ The main thread puts down what it wants, a scene or a view, and wakes the thread
 
 import dataclasses
 import threading
+import weakref
 
 import numpy
 
@@ -47,10 +48,11 @@ class Frame:
 
 
 class Session:
-    """The thread and what it shares. redraw() is called by it whenever there is something new to see."""
+    """The thread and what it shares. redraw, a method, is called by it whenever there is something new to see; whose method it is
+    may go before the thread does."""
 
     def __init__(self, redraw):
-        self._redraw = redraw
+        self._redraw_method = weakref.WeakMethod(redraw)
         self._wake = threading.Condition()
         self._description = self._model = self._view = None
         self._changed = self._ending = False
@@ -74,11 +76,12 @@ class Session:
                 self._interrupt()
 
     def close(self):
-        """Ends the thread; returns when it is gone."""
+        """Ends the thread; returns when it is gone, unless it is the one that asks: it may hold the engine last."""
         with self._wake:
             self._ending = True
             self._interrupt()
-        self._thread.join()
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
 
     def is_done(self):
         frame = self.frame
@@ -92,6 +95,11 @@ class Session:
         self._wake.notify()
 
     # ---- the thread ----
+
+    def _redraw(self):
+        redraw = self._redraw_method()
+        if redraw is not None:
+            redraw()
 
     def _work(self):
         scene = None
