@@ -76,9 +76,11 @@ class Jobs(unittest.TestCase):
         bpy.context.preferences.addons["glint"].preferences.command = "/nowhere/glint"
         with self.assertRaisesRegex(RuntimeError, "glint command is neither"):
             bpy.ops.glint.compare()
+        bpy.context.preferences.addons["glint"].preferences.command = sys.argv[-1]
         scene.camera = None
-        with self.assertRaisesRegex(RuntimeError, "no camera"):
-            bpy.ops.glint.render_reference()
+        for operator in (bpy.ops.glint.render_reference, bpy.ops.glint.compare):
+            with self.assertRaisesRegex(RuntimeError, "no camera"):
+                operator()
 
 
 blender_case.run(Jobs)

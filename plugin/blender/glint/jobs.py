@@ -50,6 +50,8 @@ def _reference_path(scene):
         return None, "Save the file first, or give the reference a whole path: '//' is the folder of the file"
     if not path.lower().endswith(".exr"):
         return None, f"'{scene.glint_reference.path}': expected a name that ends in .exr"
+    if scene.camera is None:
+        return None, "The scene has no camera"
     return path, ""
 
 
@@ -156,8 +158,8 @@ class GLINT_OT_render_reference(Job, bpy.types.Operator):
     def steps(self, context):
         scene = context.scene
         path, problem = _reference_path(scene)
-        if path is None or scene.camera is None:
-            self.report({"ERROR"}, problem or "The scene has no camera")
+        if path is None:
+            self.report({"ERROR"}, problem)
             return None
         copy = os.path.join(self.folder.name, "scene.blend")
         bpy.ops.wm.save_as_mainfile(filepath=copy, copy=True)
