@@ -277,33 +277,28 @@ static double length2_at(const rim_products *p, const double turn[2])
     return p->cc + x * (2.0 * p->ca + x * p->aa) + y * (2.0 * (p->cb + x * p->ab) + y * p->bb);
 }
 
-/* Goes from cos t and sin t to where the rim is closer to the pole: Newton's method for the greatest z^2 / |rim|^2. */
+/* One step of Newton's method towards where z^2 / |rim|^2 is greatest and the rim closest to the pole, if it leads
+ * there. */
 static void approach_pole(vec3d c, vec3d a, vec3d b, const rim_products *p, double turn[2])
 {
-    for (int i = 0; i < 3; i++) {
-        const double x = turn[0], y = turn[1], z = c.z + x * a.z + y * b.z, w = length2_at(p, turn);
-        const double dz = x * b.z - y * a.z, ddz = c.z - z;
-        /* Half of the derivatives of w. */
-        const double xy = x * y, tilt = (x - y) * (x + y),
-                     dw = x * p->cb - y * p->ca + tilt * p->ab + xy * (p->bb - p->aa);
-        const double ddw = tilt * (p->bb - p->aa) - 4.0 * xy * p->ab - (x * p->ca + y * p->cb);
-        const double slope = dz * w - z * dw, change = ddz * w + dz * dw - z * ddw;
-        if (!(change < 0.0))
-            return;
-        const double step = real_max(-0.5, real_min(0.5, -slope / change));
-        double next[2] = { x - step * y, y + step * x };
-        const double in = 1.0 / sqrt(1.0 + step * step);
-        next[0] *= in;
-        next[1] *= in;
-        const double height = c.z + next[0] * a.z + next[1] * b.z, length2 = length2_at(p, next);
-        if (!(height > 0.0 && height * height * w > z * z * length2))
-            return;
+    const double x = turn[0], y = turn[1], z = c.z + x * a.z + y * b.z, w = length2_at(p, turn);
+    const double dz = x * b.z - y * a.z, ddz = c.z - z;
+    /* Half of the derivatives of w. */
+    const double xy = x * y, tilt = (x - y) * (x + y), dw = x * p->cb - y * p->ca + tilt * p->ab + xy * (p->bb - p->aa);
+    const double ddw = tilt * (p->bb - p->aa) - 4.0 * xy * p->ab - (x * p->ca + y * p->cb);
+    const double slope = dz * w - z * dw, change = ddz * w + dz * dw - z * ddw;
+    if (!(change < 0.0))
+        return;
+    const double step = real_max(-0.5, real_min(0.5, -slope / change)), in = 1.0 / sqrt(1.0 + step * step);
+    const double next[2] = { (x - step * y) * in, (y + step * x) * in };
+    const double height = c.z + next[0] * a.z + next[1] * b.z;
+    if (height > 0.0 && height * height * w > z * z * length2_at(p, next)) {
         turn[0] = next[0];
         turn[1] = next[1];
     }
 }
 
-/* Where to begin: the highest point of the rim, or the one that lies towards the pole in its plane. */
+/* From the highest point of the rim, or from the one that lies towards the pole in its plane. */
 static void face_pole(vec3d c, vec3d a, vec3d b, double px, double py, double turn[2])
 {
     const rim_products p = { vec3d_dot(c, a), vec3d_dot(c, b), vec3d_dot(a, b),

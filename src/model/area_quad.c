@@ -140,7 +140,7 @@ static inline vfloat masking(const quad_setting *l, vvec3 w)
     return 0.25F * sum / max_f(from_o * sum + 0.5F * t * l->wo.z, least * sum);
 }
 
-static inline void evaluate(const quad_setting *l, const cell *c, quad_terms *out)
+static inline __attribute__((always_inline)) void evaluate(const quad_setting *l, const cell *c, quad_terms *out)
 {
     vfloat solid_angle;
     vvec3 p = points_of(l, c, &solid_angle);
