@@ -86,7 +86,7 @@ static point_density density_at(const point *p, const glint_material_options *o,
         const float one = weight * (s.count > 0 ? slopes / (cosine2 * cosine2) : target);
         float tint[3] = { 1.0F, 1.0F, 1.0F };
         if (is_colored)
-            tint_of(&palette, cell->hash, s.facets, tint);
+            tint_of(&palette, cell->hash, dictionary_cell_facets(&s), tint);
         d.plain += one;
         for (int c = 0; c < 3; c++)
             tinted[c] += one * tint[c];

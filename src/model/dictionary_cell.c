@@ -152,12 +152,12 @@ int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets)
 void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
                           float log4_facets, float coverage)
 {
-    float x = log4_facets + 0.5F * LOG2_OF_E * log_f(coverage);
+    float x = coverage < 1.0F ? log4_facets + 0.5F * LOG2_OF_E * log_f(coverage) : log4_facets;
     if (surface->density_variation > 0.0F)
         x += surface->density_variation * normal_of(draw(hash, DRAW_DENSITY));
     /* No fewer than one facet, and no more than the dictionary tells from infinitely many. */
     x = fminf(fmaxf(x, 0.0F), (float)DICTIONARY_LEVELS);
-    s->facets = exp4(x);
+    s->log4_facets = x;
     s->count = 0;
     if (x >= (float)DICTIONARY_LEVELS - 0.5F)
         return;
@@ -165,6 +165,11 @@ void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *s
         deal_to_scales(s, surface, hash, x);
     else
         s->lobes[s->count++] = make_lobes(surface, draw(hash, FIRST_SCALE), 1.0F, 1.0F, x);
+}
+
+float dictionary_cell_facets(const dictionary_cell_slopes *s)
+{
+    return exp4(s->log4_facets);
 }
 
 /* ---- density ---- */

@@ -32,8 +32,8 @@ typedef struct dictionary_lobes {
 enum { DICTIONARY_MAX_SCALES = 12 };
 
 typedef struct dictionary_cell_slopes {
-    float facets; /* how many the cell has, at least 1 */
-    int count;    /* 0: so many that the cell has the target's slopes */
+    float log4_facets; /* of how many the cell has, at least 0 */
+    int count;         /* 0: so many that the cell has the target's slopes */
     dictionary_lobes lobes[DICTIONARY_MAX_SCALES];
 } dictionary_cell_slopes;
 
@@ -44,6 +44,9 @@ float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash,
 /* Fills *s for a cell with facets. log4_facets: see dictionary_patch; coverage > 0: of this cell. */
 void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
                           float log4_facets, float coverage);
+
+/* How many facets it has, at least 1. */
+float dictionary_cell_facets(const dictionary_cell_slopes *s);
 
 /* Whether every cell with so many facets has the target's slopes and the mean coverage, whatever its hash. */
 int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets);
