@@ -49,6 +49,13 @@ static inline vuint load_u(const uint32_t *p)
     return v;
 }
 
+static inline vint load_i(const int32_t *p)
+{
+    vint v;
+    memcpy(&v, p, sizeof(v));
+    return v;
+}
+
 static inline void store_f(float *p, vfloat v)
 {
     memcpy(p, &v, sizeof(v));

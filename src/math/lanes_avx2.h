@@ -51,6 +51,11 @@ static inline vfloat lookup_f(const float *table, vint index)
     return (vfloat)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
 }
 
+static inline vuint gather_u(const void *base, vint byte)
+{
+    return (vuint)_mm256_i32gather_epi32(base, (__m256i)byte, 1);
+}
+
 static inline vdouble widen(vfloat f)
 {
     return (vdouble){ (half_double)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)f)),

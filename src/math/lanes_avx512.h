@@ -98,6 +98,11 @@ static inline vfloat lookup_f(const float *table, vint index)
     return (vfloat)_mm512_permutexvar_ps((__m512i)index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
 }
 
+static inline vuint gather_u(const void *base, vint byte)
+{
+    return (vuint)_mm512_i32gather_epi32((__m512i)byte, base, 1);
+}
+
 static inline vdouble widen(vfloat f)
 {
     return (vdouble){ (half_double)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)f)),

@@ -63,6 +63,17 @@ static inline vfloat lookup_f(const float *table, vint index)
     return v;
 }
 
+static inline vuint gather_u(const void *base, vint byte)
+{
+    vuint v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++) {
+        uint32_t x;
+        memcpy(&x, (const char *)base + byte[i], sizeof(x));
+        v[i] = x;
+    }
+    return v;
+}
+
 static inline vdouble widen(vfloat f)
 {
     half_float half[2];
