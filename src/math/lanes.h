@@ -56,6 +56,11 @@ static inline vint load_i(const int32_t *p)
     return v;
 }
 
+static inline void store_u(uint32_t *p, vuint v)
+{
+    memcpy(p, &v, sizeof(v));
+}
+
 static inline void store_f(float *p, vfloat v)
 {
     memcpy(p, &v, sizeof(v));

@@ -181,7 +181,6 @@ static void fold_and_normalize(const lobe_sum *sum, dictionary_marginal marginal
 void dictionary_build(dictionary *d, dictionary_scratch *scratch, uint32_t seed)
 {
     lobe_table lobes;
-    d->beyond = 0;
     make_lobes(&lobes);
     stream random = { hash_full(seed + HASH_Z), 0 };
     place_joint(scratch, &random);

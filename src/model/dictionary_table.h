@@ -22,7 +22,6 @@ typedef uint16_t dictionary_marginal[DICTIONARY_SAMPLES];
 /* 384 KiB. */
 typedef struct dictionary {
     dictionary_marginal marginal[DICTIONARY_LEVELS][DICTIONARY_MARGINALS];
-    uint16_t beyond; /* read together with the last sample */
 } dictionary;
 
 /* Where lobes are while the dictionary is being built: quantiles of |slope| in units of 2^-32. */
