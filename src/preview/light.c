@@ -14,7 +14,7 @@ double light_cap_sr(double angular_radius_rad)
 
 static double clamp_cap(double solid_angle)
 {
-    return fmin(fmax(solid_angle, light_cap_sr(SMALLEST_ANGLE)), LARGEST_CAP);
+    return smaller_of(larger_of(solid_angle, light_cap_sr(SMALLEST_ANGLE)), LARGEST_CAP);
 }
 
 /* EXT_lights_area: upright in the plane of the node's x and y, shining along -z. */
@@ -58,7 +58,7 @@ static double shape_sine(double sine)
 
 static double spot_factor(const light *l, vec3 wi)
 {
-    const double t = fmin(fmax(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
+    const double t = smaller_of(larger_of(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
     return t * t;
 }
 
@@ -67,7 +67,7 @@ static double range_factor(double distance, double range)
 {
     const double ratio = distance / range;
     const double square = ratio * ratio;
-    return fmax(1.0 - square * square, 0.0);
+    return larger_of(1.0 - square * square, 0.0);
 }
 
 static bool set_irradiance(const light *l, double factor, light_view *out)
@@ -101,7 +101,7 @@ bool light_see(const light *l, vec3 position, light_view *out)
         return v3_dot(towards, l->axis) > 0.0 && set_irradiance(l, 1.0, out);
     }
     /* A sphere of radius r: sin of its angular radius is r / d. Inside it, the cap is held below a hemisphere. */
-    const double sine = fmin(l->radius / distance, 1.0);
+    const double sine = smaller_of(l->radius / distance, 1.0);
     out->sine = shape_sine(sine);
     out->solid_angle_sr = (float)clamp_cap(light_cap_sr(asin(sine)));
     const double cone = l->kind == SCENE_LIGHT_SPOT ? spot_factor(l, out->wi) : 1.0;
@@ -140,7 +140,7 @@ void light_pick(const light *l, const light_view *view, vec3 position, const dou
 
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
         const double cosine = 1.0 - u[0] * (1.0 - l->cosine); /* even over the cap */
-        const double sine = sqrt(fmax(1.0 - cosine * cosine, 0.0));
+        const double sine = sqrt(larger_of(1.0 - cosine * cosine, 0.0));
         const vec3 side = v3_mad(v3_scale(tangent, cos(angle) * sine), bitangent, sin(angle) * sine);
         *direction = v3_normalize(v3_mad(side, view->wi, cosine));
         *distance = (double)INFINITY;
