@@ -49,6 +49,7 @@ typedef struct vertex {
     trace_hit found;
     hit hit;
     hit_step hit_step;
+    surface_step turn; /* of the normal; where the path goes on */
     shade_point point;
 } vertex;
 
