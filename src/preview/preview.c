@@ -116,9 +116,9 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
         return false;
     const double loaded = now_s();
     st->shader = (shader){ s, &st->materials, st->textures, NULL };
-    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
-        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
-        !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
+    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) || !materials_make(s, o, NULL, &st->materials, r) ||
+        !geometry_make(s, &st->geometry, r) || !trace_build(&st->geometry, opacity_at, st, &st->trace, r) ||
+        !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
