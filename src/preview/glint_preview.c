@@ -10,11 +10,9 @@
 #include "preview/caller_scene.h"
 
 struct glint_preview_scene {
-    scene scene;
-    caller_world world;
+    caller_scene from;
     preview_stage *stage;
-    char *warnings;
-    size_t warnings_length;
+    int model;
 };
 
 struct glint_preview_picture {
@@ -89,35 +87,30 @@ static glint_preview_result wrong(char *message, size_t message_size, const char
 
 /* ---- scenes ---- */
 
-/* A warning that memory has no room for is lost. */
-static void keep_warning(const char *text, void *user)
+static preview_options stage_options(const glint_preview_scene *s, int model)
 {
-    glint_preview_scene *const s = user;
-    const size_t length = strlen(text);
-    char *const grown = realloc(s->warnings, s->warnings_length + length + 2);
-    if (grown == NULL)
-        return;
-    s->warnings = grown;
-    snprintf(&grown[s->warnings_length], length + 2, "%s\n", text);
-    s->warnings_length += length + 1;
+    preview_options o = PREVIEW_OPTIONS_INIT;
+    o.model = model;
+    o.sky = &s->from.world.sky;
+    if (s->from.world.map.rgb != NULL)
+        o.environment = &s->from.world.environment;
+    return o;
 }
 
 static bool make_scene(glint_preview_scene *s, const glint_preview_scene_options *o, report *r)
 {
-    preview_options stage = PREVIEW_OPTIONS_INIT;
-    stage.model = o->model;
-    if (!caller_scene_make(o, &s->scene, &s->world, r))
+    if (!caller_scene_make(o, &s->from, r))
         return false;
-    stage.sky = &s->world.sky;
-    if (s->world.map.rgb != NULL)
-        stage.environment = &s->world.environment;
-    return preview_stage_open(&s->scene, &stage, &s->stage, r);
+    s->model = o->model;
+    s->from.warnings.now = CALLER_LOOK;
+    const preview_options stage = stage_options(s, s->model);
+    return preview_stage_open(&s->from.scene, &stage, &s->stage, r);
 }
 
 glint_preview_result glint_preview_scene_create(const glint_preview_scene_options *options, glint_preview_scene **out,
                                                 char *message, size_t message_size)
 {
-    report r = { .warn = keep_warning };
+    report r = { .warn = caller_warnings_keep };
     if (out == NULL)
         return wrong(message, message_size, "out is NULL");
     *out = NULL;
@@ -128,8 +121,9 @@ glint_preview_result glint_preview_scene_create(const glint_preview_scene_option
     glint_preview_scene *const s = calloc(1, sizeof *s);
     if (s == NULL)
         return wrong(message, message_size, "no memory for a scene");
-    r.user = s;
+    r.user = &s->from.warnings;
     const bool done = make_scene(s, options, &r);
+    caller_warnings_join(&s->from.warnings);
     if (done)
         *out = s;
     else
@@ -137,9 +131,70 @@ glint_preview_result glint_preview_scene_create(const glint_preview_scene_option
     return result_of(done, &r, message, message_size);
 }
 
+/* The warnings of what has changed. */
+static void move_warnings(caller_warnings *to, caller_warnings *from, int parts)
+{
+    if ((parts & GLINT_PREVIEW_MATERIALS) != 0)
+        caller_warnings_move(to, from, CALLER_LOOK);
+    if ((parts & GLINT_PREVIEW_LIGHTS) != 0)
+        caller_warnings_move(to, from, CALLER_LIGHTS);
+    if ((parts & GLINT_PREVIEW_WORLD) != 0)
+        caller_warnings_move(to, from, CALLER_WORLD);
+    caller_warnings_join(to);
+}
+
+/* The stage sees the scene with its new parts; what they replaced is in parked, until it is clear who stays. */
+static bool change_stage(glint_preview_scene *s, caller_scene *parked, int parts, int model, report *r)
+{
+    caller_scene_swap(&s->from, parked, parts);
+    const preview_change change = { .before = (parts & GLINT_PREVIEW_MATERIALS) != 0 ? parked->scene.materials : NULL,
+                                    .images = (parts & GLINT_PREVIEW_IMAGES) != 0,
+                                    .environment = (parts & GLINT_PREVIEW_WORLD) != 0 };
+    const preview_options stage = stage_options(s, model);
+    parked->warnings.now = CALLER_LOOK;
+    if (!preview_stage_change(s->stage, &change, &stage, r)) {
+        caller_scene_swap(&s->from, parked, parts);
+        return false;
+    }
+    s->model = model;
+    move_warnings(&s->from.warnings, &parked->warnings, parts);
+    return true;
+}
+
+static glint_preview_result change_scene(glint_preview_scene *s, const glint_preview_scene_options *o, int parts,
+                                         caller_scene *next, char *message, size_t message_size)
+{
+    report r = { .warn = caller_warnings_keep, .user = &next->warnings };
+    const int model = (parts & GLINT_PREVIEW_MATERIALS) != 0 ? o->model : s->model;
+    if (!caller_scene_make_parts(o, parts, &s->from.scene, next, &r))
+        return result_of(false, &r, message, message_size);
+    if ((parts & GLINT_PREVIEW_MATERIALS) != 0 && !caller_scene_same_meshes(&s->from.scene, &next->scene))
+        return say(GLINT_PREVIEW_OTHER_MESHES, "the materials ask for other meshes", message, message_size);
+    return result_of(change_stage(s, next, parts, model, &r), &r, message, message_size);
+}
+
+glint_preview_result glint_preview_scene_change(glint_preview_scene *s, int32_t parts,
+                                                const glint_preview_scene_options *options, char *message,
+                                                size_t message_size)
+{
+    report r = { 0 };
+    if (s == NULL || options == NULL)
+        return wrong(message, message_size, "%s is NULL", s == NULL ? "scene" : "options");
+    if (!caller_check_size("options", options->size, sizeof *options, &r))
+        return result_of(false, &r, message, message_size);
+    if ((parts & ~CALLER_LOOKS) != 0)
+        return wrong(message, message_size, "parts is %d; expected a sum of 1, 2, 4 and 8", parts);
+    if ((parts & GLINT_PREVIEW_IMAGES) != 0 && (parts & GLINT_PREVIEW_MATERIALS) == 0)
+        return wrong(message, message_size, "parts is %d: found images, expected the materials with them", parts);
+    caller_scene next;
+    const glint_preview_result result = change_scene(s, options, parts, &next, message, message_size);
+    caller_scene_free(&next);
+    return result;
+}
+
 const char *glint_preview_scene_warnings(const glint_preview_scene *s)
 {
-    return s != NULL && s->warnings != NULL ? s->warnings : "";
+    return s != NULL && s->from.warnings.all != NULL ? s->from.warnings.all : "";
 }
 
 void glint_preview_scene_destroy(glint_preview_scene *s)
@@ -147,8 +202,7 @@ void glint_preview_scene_destroy(glint_preview_scene *s)
     if (s == NULL)
         return;
     preview_stage_close(s->stage);
-    caller_scene_free(&s->scene, &s->world);
-    free(s->warnings);
+    caller_scene_free(&s->from);
     free(s);
 }
 
@@ -212,8 +266,9 @@ static bool open_picture(glint_preview_picture *p, const glint_preview_scene *s,
     o.progress = keep_progress;
     o.user = p;
     o.cancel = &p->cancel;
-    o.sky = &s->world.sky;
+    o.sky = &s->from.world.sky;
     o.transparent = from->transparent != 0;
+    o.accuracy = (double)from->accuracy;
     p->samples = from->samples;
     return preview_picture_open(s->stage, &o, &p->picture, r);
 }

@@ -34,6 +34,11 @@ bool preview_stage_open(const scene *s, const preview_options *options, preview_
     return true;
 }
 
+bool preview_stage_change(preview_stage *s, const preview_change *change, const preview_options *options, report *r)
+{
+    return stage_check_options(options, r) && stage_change(&s->stage, change, options, r);
+}
+
 void preview_stage_close(preview_stage *s)
 {
     if (s == NULL)

@@ -57,7 +57,7 @@ static float opacity_at(const void *user, const trace_hit *at)
     return shade_opacity(&st->shader, &st->geometry, at);
 }
 
-static bool set_environment(stage *st, const preview_options *o, report *r)
+bool stage_set_environment(stage *st, const preview_options *o, report *r)
 {
     const scene_environment *const own = &st->scene->environment;
     preview_environment from = { .map = NULL };
@@ -116,7 +116,7 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
         return false;
     const double loaded = now_s();
     st->shader = (shader){ s, &st->materials, st->textures, NULL };
-    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
+    if (!shader_open(&st->shader, r) || !stage_set_environment(st, o, r) ||
         !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;

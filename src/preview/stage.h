@@ -22,6 +22,11 @@ typedef struct stage {
 bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r);
 void stage_take_down(stage *st);
 
+/* See preview_stage_change. */
+bool stage_change(stage *st, const preview_change *change, const preview_options *o, report *r);
+/* What surrounds the scene; has_environment says whether there is a map. */
+bool stage_set_environment(stage *st, const preview_options *o, report *r);
+
 typedef struct view {
     camera camera;
     light *lights;
