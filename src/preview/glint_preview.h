@@ -225,6 +225,15 @@ typedef struct glint_preview_picture_options {
         sizeof(glint_preview_picture_options), 0, 640, 360, 0, 0, 0, 0, 16, 1, 0, 0, 1, 0, 0                           \
     }
 
+/* What a picture with these options would do, what it would leave out, and what each costs: lines whose fields tabs set
+ * apart. The first line: nanoseconds of one core a sample, error of what is left out, noise of the samples (both
+ * relative), "met" or "missed" (the accuracy), samples that would meet it (0: no number would). Then a line a decision:
+ * name of its material (empty: of the whole picture), effect, "on" or "off", choice, share of the time, error, reason.
+ * docs/plan.md. A text_size that is too small is an error that says how large it must be. */
+GLINT_PREVIEW_API glint_preview_result glint_preview_plan(const glint_preview_scene *s,
+                                                          const glint_preview_picture_options *options, char *text,
+                                                          size_t text_size, char *message, size_t message_size);
+
 typedef struct glint_preview_picture glint_preview_picture;
 
 /* Nothing is rendered yet. On failure *out is NULL. */

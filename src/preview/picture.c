@@ -47,6 +47,16 @@ void preview_stage_close(preview_stage *s)
     free(s);
 }
 
+bool preview_stage_plan(const preview_stage *s, const preview_options *options, glint_plan **plan, report *r)
+{
+    view v = { 0 };
+    *plan = NULL;
+    const bool done =
+        stage_check_options(options, r) && view_set_up(&v, &s->stage, options, r) && view_plan(&v, options, plan, r);
+    view_take_down(&v);
+    return done;
+}
+
 bool preview_picture_open(const preview_stage *s, const preview_options *options, preview_picture **out, report *r)
 {
     *out = NULL;

@@ -171,6 +171,16 @@ void view_take_down(view *v)
     planned_free(&v->planned);
 }
 
+bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r)
+{
+    /* A view that leaves nothing out has not been looked at. */
+    if (v->planned.plan == NULL && !planned_make(&v->planned, o, &v->world, r))
+        return false;
+    *plan = v->planned.plan;
+    v->planned.plan = NULL;
+    return true;
+}
+
 static unsigned default_facet_limit(void)
 {
     const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
@@ -240,15 +250,8 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
     stage st = { 0 };
     view v = { 0 };
     *plan = NULL;
-    bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
-              view_set_up(&v, &st, options, r);
-    /* A view that leaves nothing out has not been looked at. */
-    if (ok && v.planned.plan == NULL)
-        ok = planned_make(&v.planned, options, &v.world, r);
-    if (ok) {
-        *plan = v.planned.plan;
-        v.planned.plan = NULL;
-    }
+    const bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+                    view_set_up(&v, &st, options, r) && view_plan(&v, options, plan, r);
     view_take_down(&v);
     stage_take_down(&st);
     return ok;

@@ -110,6 +110,9 @@ typedef struct preview_change {
 bool preview_stage_change(preview_stage *stage, const preview_change *change, const preview_options *options,
                           report *r);
 
+/* As preview_plan, of a stage that stands. */
+bool preview_stage_plan(const preview_stage *stage, const preview_options *options, glint_plan **plan, report *r);
+
 /* One picture under way. Any number may be open on a stage, each in a thread of its own. */
 typedef struct preview_picture preview_picture;
 

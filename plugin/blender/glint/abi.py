@@ -225,6 +225,7 @@ FUNCTIONS = {
     "glint_preview_scene_change": (ctypes.c_int, [ctypes.c_void_p, ctypes.c_int32, ctypes.POINTER(SceneOptions), ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_scene_warnings": (ctypes.c_char_p, [ctypes.c_void_p]),
     "glint_preview_scene_destroy": (None, [ctypes.c_void_p]),
+    "glint_preview_plan": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.c_char_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_create": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.POINTER(ctypes.c_void_p), ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_refine": (ctypes.c_int, [ctypes.c_void_p, ctypes.c_int32, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_cancel": (None, [ctypes.c_void_p, ctypes.c_int32]),
