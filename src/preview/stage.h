@@ -25,6 +25,7 @@ void stage_take_down(stage *st);
 typedef struct view {
     camera camera;
     light *lights;
+    light_tree light_tree; /* of many lights */
     planned planned; /* where the options leave something out */
     world world;
 } view;
