@@ -92,9 +92,18 @@ static inline vint exponent_of(vfloat x)
     return (vint)(bits_of(x) >> 23) - 127;
 }
 
+#if !defined(LANES_TAKE_FLOATS_APART)
+
+static inline vfloat exponent_f(vfloat x)
+{
+    return to_float(exponent_of(x));
+}
+
 static inline vfloat mantissa_of(vfloat x)
 {
     return float_from_bits((bits_of(x) & 0x007fffffU) | 0x3f800000U);
 }
+
+#endif
 
 #endif

@@ -11,6 +11,16 @@ static inline int any(vmask m)
     return _mm256_movemask_ps((__m256)m) != 0;
 }
 
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
+}
+
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return (vint)choose(m, (vfloat)a, (vfloat)b);
+}
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return (vfloat)_mm256_min_ps((__m256)a, (__m256)b);

@@ -16,6 +16,16 @@ static inline int any(vmask m)
     return bits != 0;
 }
 
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return choose_bits(m, a, b);
+}
+
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)choose_bits(m, (vint)a, (vint)b);
+}
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return choose(less(a, b), a, b);

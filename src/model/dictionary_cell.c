@@ -75,9 +75,7 @@ float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash,
         return uniform_of(first) < surface->coverage ? 1.0F : 0.0F;
     const float grains = exp2_i(2 * grain_level);
     const binomial_chance chance = binomial_chance_of(surface->coverage);
-    const vint uniform[12] = { (vint)first };
-    const vfloat weight[12] = { 1.0F }, dither[3] = { 0.0F };
-    return fminf(binomial_weighted_sum(grains, &chance, uniform, weight, dither) / grains, 1.0F);
+    return fminf(binomial_draw(grains, &chance, (vint)first, 0.0F) / grains, 1.0F);
 }
 
 /* ---- scales ---- */
