@@ -191,9 +191,8 @@ glint_surface glint_material_surface(const glint_material *material)
 
 /* ---- evaluation ---- */
 
-/* Everything that a query points to once it has been checked. */
+/* What a query points to once it has been checked. */
 typedef struct checked {
-    model_query query;
     glint_surface surface;
     glint_coat coat;
 } checked;
@@ -212,23 +211,24 @@ static int is_usable(const glint_footprint *f)
 }
 
 /* Every number of a surface into its range, as clamp_to does, but all at once: as integers, floats that are not
- * negative keep their order, negative ones are below, and NaNs above infinity. */
-static glint_surface clamp_surface(const glint_surface *s)
+ * negative keep their order, negative ones are below, and NaNs above infinity. Written where they belong, without the
+ * coat: a copy of the whole would wait for them. */
+static void clamp_surface(glint_surface *to, const glint_surface *s)
 {
     static const glint_surface least = { LEAST_ALPHA, LEAST_ALPHA, { 0 }, { 0 }, { 0 }, 0.0F, 0.0F, NULL };
     static const glint_surface most = { 1.0F, 1.0F, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, 1e18F, 1.0F, NULL };
     enum { COUNT = offsetof(glint_surface, coat) / sizeof(int32_t) };
-    int32_t number[COUNT], low[COUNT], high[COUNT];
-    memcpy(number, s, sizeof(number));
-    memcpy(low, &least, sizeof(low));
-    memcpy(high, &most, sizeof(high));
-    for (int i = 0; i < COUNT; i++) {
-        const int32_t x = number[i] > 0x7f800000 ? low[i] : number[i], up = x > low[i] ? x : low[i];
-        number[i] = up < high[i] ? up : high[i];
+    for (size_t i = 0; i < COUNT; i++) {
+        int32_t x, low, high;
+        memcpy(&x, (const char *)s + i * sizeof(x), sizeof(x));
+        memcpy(&low, (const char *)&least + i * sizeof(x), sizeof(x));
+        memcpy(&high, (const char *)&most + i * sizeof(x), sizeof(x));
+        x = x > 0x7f800000 ? low : x;
+        x = x > low ? x : low;
+        x = x < high ? x : high;
+        memcpy((char *)to + i * sizeof(x), &x, sizeof(x));
     }
-    glint_surface r = { .coat = NULL };
-    memcpy(&r, number, sizeof(number));
-    return r;
+    to->coat = NULL;
 }
 
 /* False: its normal or its tangent is no direction. */
@@ -236,30 +236,30 @@ static int clamp_coat(glint_coat *c, const glint_coat *from)
 {
     static const glint_footprint degenerate = { 0 };
     *c = *from;
-    c->surface = clamp_surface(&from->surface);
+    clamp_surface(&c->surface, &from->surface);
     c->weight = clamp_to(from->weight, 0.0F, 1.0F);
     if (from->footprint && !is_usable(from->footprint))
         c->footprint = &degenerate;
     return is_unit(vec3_from(from->normal)) && is_unit(vec3_from(from->tangent));
 }
 
-/* Fills all of *c but wi. False: there is nothing to see from wo. */
-static int begin(checked *c, const glint_material *material, const glint_surface *surface,
+/* Fills all of *q but wi. False: there is nothing to see from wo. */
+static int begin(model_query *q, checked *c, const glint_material *material, const glint_surface *surface,
                  const glint_footprint *footprint, const float wo[3])
 {
     if (!material || !wo)
         return 0;
     if (surface)
-        c->surface = clamp_surface(surface);
-    c->query = (model_query){ .material = material,
-                              .surface = surface ? &c->surface : &material->options.surface,
-                              .total_area = surface ? 0.0F : material->total_area,
-                              .footprint = footprint && is_usable(footprint) ? footprint : NULL,
-                              .wo = vec3_from(wo) };
-    if (!is_unit(c->query.wo))
+        clamp_surface(&c->surface, surface);
+    *q = (model_query){ .material = material,
+                        .surface = surface ? &c->surface : &material->options.surface,
+                        .total_area = surface ? 0.0F : material->total_area,
+                        .footprint = footprint && is_usable(footprint) ? footprint : NULL,
+                        .wo = vec3_from(wo) };
+    if (!is_unit(q->wo))
         return 0;
     if (!material->base)
-        return c->query.wo.z > 0.0F;
+        return q->wo.z > 0.0F;
     if (!surface || !surface->coat)
         return 1;
     c->surface.coat = &c->coat;
@@ -267,11 +267,11 @@ static int begin(checked *c, const glint_material *material, const glint_surface
 }
 
 /* The light's side. False: wi is not lit. */
-static int light_up(checked *c, const float wi[3], float solid_angle_sr)
+static int light_up(model_query *q, const float wi[3], float solid_angle_sr)
 {
-    c->query.wi = vec3_from(wi);
-    c->query.solid_angle_sr = clamp_to(solid_angle_sr, 0.0F, 6.28318531F);
-    return is_unit(c->query.wi) && (c->query.material->base || c->query.wi.z > 0.0F);
+    q->wi = vec3_from(wi);
+    q->solid_angle_sr = clamp_to(solid_angle_sr, 0.0F, 6.28318531F);
+    return is_unit(q->wi) && (q->material->base || q->wi.z > 0.0F);
 }
 
 static void make_finite(glint_value *value)
@@ -286,10 +286,12 @@ void glint_eval_value(const glint_material *material, const glint_surface *surfa
                       const float wo[3], const float wi[3], const glint_light *light, glint_value *value)
 {
     checked c;
+    model_query q;
     *value = (glint_value){ 0 };
-    if (!wi || !begin(&c, material, surface, footprint, wo) || !light_up(&c, wi, light ? light->solid_angle_sr : 0.0F))
+    if (!wi || !begin(&q, &c, material, surface, footprint, wo) ||
+        !light_up(&q, wi, light ? light->solid_angle_sr : 0.0F))
         return;
-    material->model->eval(&c.query, value);
+    material->model->eval(&q, value);
     make_finite(value);
 }
 
@@ -297,11 +299,12 @@ void glint_eval_area(const glint_material *material, const glint_surface *surfac
                      const float wo[3], const glint_area_light *light, glint_value *value)
 {
     checked c;
+    model_query q;
     *value = (glint_value){ 0 };
-    if (!light || !begin(&c, material, surface, footprint, wo))
+    if (!light || !begin(&q, &c, material, surface, footprint, wo))
         return;
-    c.query.area_light = light;
-    material->model->eval(&c.query, value);
+    q.area_light = light;
+    material->model->eval(&q, value);
     make_finite(value);
 }
 
@@ -317,17 +320,18 @@ void glint_transmittance(const glint_material *material, const glint_coat *coat,
                          float rgb[3])
 {
     checked c;
+    model_query q;
     rgb[0] = rgb[1] = rgb[2] = 0.0F;
     if (!material)
         return;
     glint_surface surface = material->options.surface;
     if (coat)
         surface.coat = coat;
-    if (!begin(&c, material, &surface, NULL, wo) || (wi && !light_up(&c, wi, 0.0F)))
+    if (!begin(&q, &c, material, &surface, NULL, wo) || (wi && !light_up(&q, wi, 0.0F)))
         return;
     rgb[0] = rgb[1] = rgb[2] = 1.0F;
     if (material->model->transmittance)
-        material->model->transmittance(&c.query, wi == NULL, rgb);
+        material->model->transmittance(&q, wi == NULL, rgb);
 }
 
 int glint_sample_direction(const glint_material *material, const glint_surface *surface,
@@ -335,13 +339,14 @@ int glint_sample_direction(const glint_material *material, const glint_surface *
                            glint_sample *sample)
 {
     checked c;
+    model_query q;
     *sample = (glint_sample){ { 0 }, 0, { 0 } };
-    if (!random || !begin(&c, material, surface, footprint, wo))
+    if (!random || !begin(&q, &c, material, surface, footprint, wo))
         return 0;
     float u[3];
     for (int i = 0; i < 3; i++)
         u[i] = clamp_to(random[i], 0.0F, 0.99999994F);
-    const int lit = material->model->sample(&c.query, u, sample);
+    const int lit = material->model->sample(&q, u, sample);
     /* Schlick's blend from f0 to a smaller f90 may round to a hair below zero. */
     for (int i = 0; i < 3; i++)
         sample->weight[i] = clamp_to(sample->weight[i], 0.0F, 3e38F);
@@ -352,9 +357,10 @@ float glint_pdf(const glint_material *material, const glint_surface *surface, co
                 const float wo[3], const float wi[3])
 {
     checked c;
-    if (!wi || !begin(&c, material, surface, footprint, wo) || !light_up(&c, wi, 0.0F))
+    model_query q;
+    if (!wi || !begin(&q, &c, material, surface, footprint, wo) || !light_up(&q, wi, 0.0F))
         return 0.0F;
-    return clamp_to(material->model->pdf(&c.query), 0.0F, 3e38F);
+    return clamp_to(material->model->pdf(&q), 0.0F, 3e38F);
 }
 
 /* ---- batches ---- */
@@ -370,14 +376,14 @@ static int has_all(const glint_batch *b)
 }
 
 /* The light of entry i. False: it lights nothing. */
-static int light_entry(checked *c, const glint_batch *b, size_t i)
+static int light_entry(model_query *q, const glint_batch *b, size_t i)
 {
     if (b->area_lights) {
-        c->query.area_light = &b->area_lights[i];
+        q->area_light = &b->area_lights[i];
         return 1;
     }
     const float wi[3] = { b->wi[0][i], b->wi[1][i], b->wi[2][i] };
-    return light_up(c, wi, b->solid_angle_sr[i]);
+    return light_up(q, wi, b->solid_angle_sr[i]);
 }
 
 glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch)
@@ -405,11 +411,9 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->seed ? batch->seed[i] : 0U,
                                               batch->draw ? batch->draw[i] : 0U };
             batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
-            if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
-                !light_entry(&c[j], batch, i))
-                continue;
-            query[lit] = c[j].query;
-            index[lit++] = i;
+            if (begin(&query[lit], &c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) &&
+                light_entry(&query[lit], batch, i))
+                index[lit++] = i;
         }
         if (lit == 0)
             continue;

@@ -38,8 +38,8 @@ enum { LATTICE = DICTIONARY_MAX_SCALES - 1 };
 /* Farthest that normal_quantile goes, in standard deviations. */
 #define FARTHEST_NORMAL 5.5F
 
-/* Which random number of a cell; each scale takes two more from FIRST_SCALE on. */
-enum { DRAW_COVERAGE = 1, DRAW_DENSITY, DRAW_SHIFT, DRAW_TAIL, DRAW_DEAL, FIRST_SCALE = 8 };
+/* Which random number of a cell; each scale takes two more from DICTIONARY_FIRST_SCALE on. */
+enum { DRAW_COVERAGE = 1, DRAW_DENSITY, DRAW_SHIFT, DRAW_TAIL, DRAW_DEAL };
 
 static uint32_t draw(uint32_t cell, uint32_t which)
 {
@@ -75,9 +75,7 @@ float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash,
         return uniform_of(first) < surface->coverage ? 1.0F : 0.0F;
     const float grains = exp2_i(2 * grain_level);
     const binomial_chance chance = binomial_chance_of(surface->coverage);
-    const vint uniform[12] = { (vint)first };
-    const vfloat weight[12] = { 1.0F }, dither[3] = { 0.0F };
-    return fminf(binomial_weighted_sum(grains, &chance, uniform, weight, dither) / grains, 1.0F);
+    return fminf(binomial_draw(grains, &chance, (vint)first, 0.0F) / grains, 1.0F);
 }
 
 /* ---- scales ---- */
@@ -111,13 +109,13 @@ static dictionary_lobes make_lobes(const dictionary_surface *surface, uint32_t h
                                    float log4_facets)
 {
     dictionary_lobes l = { weight, sqrtf(e), 1.0F, 0.0F, NULL, NULL };
-    const int level = (int)floorf(fmaxf(log4_facets, 0.0F) + 0.5F);
+    const int level = dictionary_level(fmaxf(log4_facets, 0.0F));
     if (level >= DICTIONARY_LEVELS)
         return l;
     /* Half a turn will do: the product of even functions does not change in the other half. */
-    sincos_pi(uniform_of(draw(hash, 1)), &l.sine, &l.cosine);
+    sincos_pi(uniform_of(draw(hash, DICTIONARY_TURN)), &l.sine, &l.cosine);
     const dictionary_marginal *marginal = surface->table->marginal[level];
-    const uint32_t pick = draw(hash, 2);
+    const uint32_t pick = draw(hash, DICTIONARY_PICK);
     l.along = marginal[(pick >> 16) * DICTIONARY_MARGINALS >> 16];
     l.across = marginal[(pick & 0xffffU) * DICTIONARY_MARGINALS >> 16];
     return l;
@@ -141,8 +139,8 @@ static void deal_to_scales(dictionary_cell_slopes *s, const dictionary_surface *
         const float share = (next - last) / dealt;
         last = next;
         if (share > 0.0F)
-            s->lobes[s->count++] = make_lobes(surface, draw(cell, FIRST_SCALE + (uint32_t)j), share, set.e[j],
-                                              log4_facets + 0.5F * LOG2_OF_E * log_f(share));
+            s->lobes[s->count++] = make_lobes(surface, draw(cell, DICTIONARY_FIRST_SCALE + (uint32_t)j), share,
+                                              set.e[j], log4_facets + 0.5F * LOG2_OF_E * log_f(share));
     }
 }
 
@@ -151,22 +149,31 @@ int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets)
     return log4_facets - FARTHEST_NORMAL * surface->density_variation >= (float)DICTIONARY_LEVELS - 0.5F;
 }
 
-void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
-                          float log4_facets, float coverage)
+float dictionary_cell_log4(const dictionary_surface *surface, uint32_t hash, float log4_facets, float coverage)
 {
-    float x = log4_facets + 0.5F * LOG2_OF_E * log_f(coverage);
+    float x = coverage < 1.0F ? log4_facets + 0.5F * LOG2_OF_E * log_f(coverage) : log4_facets;
     if (surface->density_variation > 0.0F)
         x += surface->density_variation * normal_of(draw(hash, DRAW_DENSITY));
     /* No fewer than one facet, and no more than the dictionary tells from infinitely many. */
-    x = fminf(fmaxf(x, 0.0F), (float)DICTIONARY_LEVELS);
-    s->facets = exp4(x);
+    x = x > 0.0F ? x : 0.0F;
+    return x < (float)DICTIONARY_LEVELS ? x : (float)DICTIONARY_LEVELS;
+}
+
+void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
+                          float log4_facets)
+{
     s->count = 0;
-    if (x >= (float)DICTIONARY_LEVELS - 0.5F)
+    if (dictionary_level(log4_facets) >= DICTIONARY_LEVELS)
         return;
     if (surface->target.kind == NDF_GGX)
-        deal_to_scales(s, surface, hash, x);
+        deal_to_scales(s, surface, hash, log4_facets);
     else
-        s->lobes[s->count++] = make_lobes(surface, draw(hash, FIRST_SCALE), 1.0F, 1.0F, x);
+        s->lobes[s->count++] = make_lobes(surface, draw(hash, DICTIONARY_FIRST_SCALE), 1.0F, 1.0F, log4_facets);
+}
+
+float dictionary_cell_facets(float log4_facets)
+{
+    return exp4(log4_facets);
 }
 
 /* ---- density ---- */

@@ -32,8 +32,7 @@ typedef struct dictionary_lobes {
 enum { DICTIONARY_MAX_SCALES = 12 };
 
 typedef struct dictionary_cell_slopes {
-    float facets; /* how many the cell has, at least 1 */
-    int count;    /* 0: so many that the cell has the target's slopes */
+    int count; /* 0: so many that the cell has the target's slopes */
     dictionary_lobes lobes[DICTIONARY_MAX_SCALES];
 } dictionary_cell_slopes;
 
@@ -41,9 +40,25 @@ typedef struct dictionary_cell_slopes {
  * grain_level: see dictionary_patch. */
 float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash, int grain_level);
 
-/* Fills *s for a cell with facets. log4_facets: see dictionary_patch; coverage > 0: of this cell. */
+/* Which random numbers of a cell its lobes take: those of scale j, from FIRST_SCALE + j. */
+enum { DICTIONARY_FIRST_SCALE = 8, DICTIONARY_TURN = 1, DICTIONARY_PICK = 2 };
+
+/* The logarithm of how many facets a cell has, in [0, DICTIONARY_LEVELS]. log4_facets: in the mean, see
+ * dictionary_patch; coverage > 0: of this cell. */
+float dictionary_cell_log4(const dictionary_surface *surface, uint32_t hash, float log4_facets, float coverage);
+
+/* How many facets these are, at least 1. */
+float dictionary_cell_facets(float log4_facets);
+
+/* The dictionary's level for 4^log4_facets facets, log4_facets >= 0; DICTIONARY_LEVELS and above: the target. */
+static inline int dictionary_level(float log4_facets)
+{
+    return (int)(log4_facets + 0.5F);
+}
+
+/* Fills *s for a cell with facets. log4_facets: of this cell. */
 void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
-                          float log4_facets, float coverage);
+                          float log4_facets);
 
 /* Whether every cell with so many facets has the target's slopes and the mean coverage, whatever its hash. */
 int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets);

@@ -9,6 +9,7 @@
 typedef struct geometry_instance {
     double to_world[16], to_object[16];
     vec3 axis_scale; /* length of each axis of the object in metres */
+    bool mirrored;   /* right and left are swapped */
     bool visible;    /* false: its transform flattens it, nothing can be hit */
 } geometry_instance;
 

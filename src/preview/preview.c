@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "preview/choose_lights.h"
 #include "preview/rig.h"
 #include "preview/stage.h"
 #include "preview/tiles.h"
@@ -97,7 +98,10 @@ static bool set_lights(view *v, const stage *st, const preview_options *o, const
         v->lights[v->world.light_count++] = light_make(&from[i]);
     for (int i = 0; i < st->environment.sun_count; ++i)
         v->lights[v->world.light_count++] = light_make(&st->environment.suns[i]);
-    return true;
+    if (v->world.light_count <= MOST_LIGHTS)
+        return true;
+    v->world.light_tree = &v->light_tree;
+    return light_tree_make(v->lights, v->world.light_count, &v->light_tree, r);
 }
 
 static void set_sky(world *w, const stage *st, const preview_options *o)
@@ -117,7 +121,7 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
     const double loaded = now_s();
     st->shader = (shader){ s, &st->materials, st->textures, NULL };
     if (!shader_open(&st->shader, r) || !stage_set_environment(st, o, r) ||
-        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+        !materials_make(s, o, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
@@ -168,6 +172,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
 void view_take_down(view *v)
 {
     free(v->lights);
+    light_tree_free(&v->light_tree);
     planned_free(&v->planned);
 }
 

@@ -30,6 +30,7 @@ bool stage_set_environment(stage *st, const preview_options *o, report *r);
 typedef struct view {
     camera camera;
     light *lights;
+    light_tree light_tree; /* of many lights */
     planned planned; /* where the options leave something out */
     world world;
 } view;

@@ -52,7 +52,7 @@ static bool make_look(stage *next, const preview_change *change, const preview_o
         next->shader.textures = next->textures;
     }
     geometry_warn_of_flat(next->emitters.geometry, r); /* said again with what else there is to say */
-    return shader_open(&next->shader, r) && materials_make(s, o->model, o->facets, NULL, &next->materials, r) &&
+    return shader_open(&next->shader, r) && materials_make(s, o, NULL, &next->materials, r) &&
            emitters_make(next->emitters.geometry, &next->emitters, r);
 }
 

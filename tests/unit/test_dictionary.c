@@ -164,7 +164,9 @@ static void mean_over_cells_is_the_target(void **state)
                 uint64_t random = (uint64_t)seed << 8 | (uint64_t)(3 * k + f);
                 for (int c = 0; c < CELLS; c++) {
                     dictionary_cell_slopes cell;
-                    dictionary_cell_find(&cell, &s, (uint32_t)random_bits(&random), 0.5F * log2f(facets[f]), 1.0F);
+                    const uint32_t hash = (uint32_t)random_bits(&random);
+                    dictionary_cell_find(&cell, &s, hash,
+                                         dictionary_cell_log4(&s, hash, 0.5F * log2f(facets[f]), 1.0F));
                     for (int i = 0; i < SLOPES; i++)
                         sum[i] += (double)dictionary_cell_density(
                             &cell, &s.target, (slope){ (float)(slopes[i][0] * ax), (float)(slopes[i][1] * ay) });
