@@ -147,6 +147,7 @@ static const bench_case cases[] = {
     { "counting, sun", GLINT_MODEL_COUNTING, all.sun, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
     { "counting, rectangle", GLINT_MODEL_COUNTING, all.rectangle, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
     { "dictionary", GLINT_MODEL_DICTIONARY, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
+    { "dictionary, GGX", GLINT_MODEL_DICTIONARY, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
     { "example", GLINT_MODEL_EXAMPLE, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
