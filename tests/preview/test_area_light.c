@@ -244,7 +244,8 @@ static void check_penumbra(float roughness, float metallic, double *most)
         moments share = { 0 };
         for (int n = 0; n < DRAWS; ++n)
             moments_add(&share, penumbra_estimate(&p, roughness * roughness < 0.3F ? 3 : 0, &random));
-        /* The picture's light is the fast integral, which for a panel in the middle of a lobe is within a thousandth. */
+        /* The picture's light is the fast integral, which for a panel in the middle of a lobe is within a thousandth.
+         */
         const double whole = penumbra_brute_force(&p, 1), seen = penumbra_brute_force(&p, 0) / whole;
         const double value = pixels.mean / (3.0 * whole);
         const double sigma = hypot(moments_standard_error(&pixels) / (3.0 * whole), moments_standard_error(&share));
