@@ -17,16 +17,14 @@ void look_up_nearest(const counting_points *points, size_t count, float *factor,
 {
     for (size_t i = 0; i < count; i++) {
         grid_ellipse ellipse;
+        grid_point grid;
         const counting_pixel pixel = counting_pixel_of(points, i, &ellipse);
-        const grid_shape shape = grid_shape_of(&ellipse);
-        grid_vertex vertex[GRID_COUNT];
-        vfloat share[GRID_COUNT], weight[GRID_CELLS], corners[4];
-        vuint cells[GRID_CELLS];
+        grid_locate(points->u[i], points->v[i], &ellipse, points->seed[i], &grid);
+        const int first = GRID_CELLS * heaviest(grid.share, GRID_COUNT);
+        const vuint cell = grid.cell[first + heaviest(grid.weight + first, GRID_CELLS)];
+
         vint uniform[4];
-        grid_tetrahedron(&shape, vertex, share);
-        const int grid = heaviest(share, GRID_COUNT);
-        grid_cells(&vertex[grid], 1, points->u[i], points->v[i], points->seed[i], cells, weight);
-        const vuint cell = cells[heaviest(weight, GRID_CELLS)];
+        vfloat corners[4];
         const angular_lattice lattice = angular_locate(points->hx[i], points->hy[i], points->cap[i]);
         const angular_place place = angular_place_of(&lattice, cell);
         angular_corners(&place, cell, 1.0F, HASH_TOP, uniform, corners);
