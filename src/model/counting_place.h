@@ -135,10 +135,10 @@ static inline void angular_corners(const angular_place *p, vuint cell, vfloat ce
     weight[3] = fx * up;
 
     const vuint corner = (cell + (vuint)(p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y + p->number;
-    uniform[0] = (vint)hash_top_times(corner, hash);
-    uniform[1] = (vint)hash_top_times(corner + HASH_X, hash);
-    uniform[2] = (vint)hash_top_times(corner + HASH_Y, hash);
-    uniform[3] = (vint)hash_top_times(corner + (HASH_X + HASH_Y), hash);
+    uniform[0] = (vint)hash_top(corner, hash);
+    uniform[1] = (vint)hash_top(corner + HASH_X, hash);
+    uniform[2] = (vint)hash_top(corner + HASH_Y, hash);
+    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y), hash);
 }
 
 /* What binomial_start_of adds to a chance, from a cell. */
