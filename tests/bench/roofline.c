@@ -120,7 +120,7 @@ static void measure(width *w, int count)
         racers[3 * i + 1] = (racer){ "floats", run_loop, &w[i].real };
         racers[3 * i + 2] = (racer){ "kernel", run_kernel, &w[i].kernel };
     }
-    race(racers, (size_t)(3 * count), 1.0, ROUNDS, result);
+    race(racers, 3 * (size_t)count, 1.0, ROUNDS, result);
     for (int i = 0; i < count; ++i) {
         const double each = (double)lanes_of[i] * ROOFLINE_OPERATIONS_PER_LANE;
         w[i].integer_rate = each / (result[3 * i].median_ns * 1e-9);

@@ -24,12 +24,13 @@ unsigned NAME(roofline_integer_, ROOFLINE_LANES)(void)
         x[k] = (vuint){ 0 } + (uint32_t)k;
     KEEP(flip);
     KEEP(add);
-    for (int i = 0; i < STEPS; ++i)
+    for (int i = 0; i < STEPS; ++i) {
 #pragma GCC unroll 12
         for (int k = 0; k < CHAINS; ++k) {
             x[k] = (x[k] ^ flip) + add;
             KEEP(x[k]);
         }
+    }
 #pragma GCC unroll 12
     for (int k = 0; k < CHAINS; ++k)
         sum += x[k][0];
@@ -45,12 +46,13 @@ unsigned NAME(roofline_float_, ROOFLINE_LANES)(void)
         x[k] = (vreal){ 0 } + (float)k;
     KEEP(scale);
     KEEP(add);
-    for (int i = 0; i < STEPS; ++i)
+    for (int i = 0; i < STEPS; ++i) {
 #pragma GCC unroll 12
         for (int k = 0; k < CHAINS; ++k) {
             x[k] = x[k] * scale + add;
             KEEP(x[k]);
         }
+    }
 #pragma GCC unroll 12
     for (int k = 0; k < CHAINS; ++k)
         sum += x[k][0];
