@@ -67,7 +67,7 @@ static bool options_of(const glint_preview_scene *s, const glint_preview_picture
     o->bounces = from->bounces;
     o->threads = from->threads;
     o->seed = from->seed;
-    o->model = s->model;
+    o->model = s->shading.model;
     o->camera = camera;
     o->aov = from->passes != 0;
     o->sky = &s->from.world.sky;

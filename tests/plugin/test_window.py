@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What needs a window besides viewport and panel: spheres that show a material, jobs that Esc stops, messages of the glTF hooks.
+"""What needs a window besides viewport and panel: spheres that show a material, the plan, jobs that Esc stops, messages of the
+glTF hooks.
 
     xvfb-run -a -s "-screen 0 940x1100x24" blender --factory-startup --enable-event-simulate -P test_window.py -- FOLDER
 
@@ -78,8 +79,7 @@ def largest_preview():
     return max((side for is_preview, side in rendered if is_preview), default=0)
 
 
-def spheres_show_a_material(material):
-    view = area("VIEW_3D")
+def spheres_show_a_material(material, view):
     yield from show_material(view)
     yield from wait_for("the sphere", lambda: largest_preview() > 100)
     yield 1.0
@@ -93,6 +93,20 @@ def spheres_show_a_material(material):
     with bpy.context.temp_override(**override(view)):
         material.glint.density_exponent = 0.5
     yield from wait_for("the sphere of another density", lambda: len(rendered) > count)
+
+
+# ---- the plan ----
+
+
+def the_plan_is_shown(view):
+    view.spaces[0].context = "RENDER"
+    yield 0.5
+    with bpy.context.temp_override(**override(view)):
+        assert bpy.ops.glint.plan() == {"FINISHED"}
+        for _ in range(4):
+            bpy.ops.view2d.scroll_down(deltay=50)
+    yield 0.5
+    shoot(os.path.join(folder(), "plan.png"), view)
 
 
 # ---- jobs ----
@@ -156,7 +170,9 @@ def hooks_open_a_message():
 def script():
     material = set_up()
     yield 0.5
-    yield from spheres_show_a_material(material)
+    view = area("VIEW_3D")  # which becomes properties
+    yield from spheres_show_a_material(material, view)
+    yield from the_plan_is_shown(view)
     yield from escape_stops_a_job()
     yield from hooks_open_a_message()
 

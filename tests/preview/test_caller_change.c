@@ -50,7 +50,7 @@ static void make_looks(looks *l)
     l->image.width = 2;
     l->image.height = 1;
     make_square(&l->square);
-    l->square.sun.angular_diameter_rad = 0.3F; /* lights flakes in numbers */
+    l->square.sun.angular_diameter_rad = 0.3F; /* lights flakes in numbers, and has a shape */
     l->square.mesh.materials = l->materials;
     l->square.options.images = &l->image;
     l->square.options.image_count = 1;
@@ -87,6 +87,11 @@ static void use_the_picture_otherwise(looks *l)
 static void change_model(looks *l)
 {
     l->square.options.model = 0; /* smooth */
+}
+
+static void integrate_over_lights(looks *l)
+{
+    l->square.options.exact_lights = 1;
 }
 
 static void change_picture(looks *l)
@@ -139,6 +144,7 @@ static const struct {
                 { glow, MATERIALS },
                 { use_the_picture_otherwise, MATERIALS },
                 { change_model, MATERIALS },
+                { integrate_over_lights, MATERIALS },
                 { change_picture, IMAGES },
                 { change_lights, LIGHTS },
                 { switch_lights_off, LIGHTS },

@@ -8,9 +8,9 @@ import gpu
 import numpy
 from gpu_extras.presets import draw_texture_2d
 
-from . import abi, compat, render_settings, scene_camera
+from . import abi, compat, scene_camera
 from .library import GlintError, Picture, Scene
-from .render_settings import ENGINE, MODELS, passes_of, threads_of
+from .render_settings import ENGINE, passes_of, shading_of, threads_of
 from .scene_data import Cache, describe
 from .viewport import Session, View
 
@@ -64,7 +64,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
 
     def update(self, data, depsgraph):
         """Blender's data may be read here; render() only works with what came of it."""
-        self.description = describe(depsgraph, model=MODELS[depsgraph.scene.glint.model])
+        self.description = describe(depsgraph, **shading_of(depsgraph.scene, depsgraph.scene.glint.accuracy))
         self.camera = scene_camera.of_render(depsgraph, self.description.warnings.append)
 
     def render(self, depsgraph):
@@ -163,7 +163,8 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             self.session, self.cache = Session(self._ask_for_redraw), Cache()
         self._forget(depsgraph)
         try:
-            self.session.show_scene(describe(depsgraph, self.cache, MODELS[depsgraph.scene.glint.model]))
+            shading = shading_of(depsgraph.scene, depsgraph.scene.glint.preview_accuracy)
+            self.session.show_scene(describe(depsgraph, self.cache, **shading))
         except GlintError as problem:
             self.session.problem = str(problem)
 
