@@ -98,10 +98,9 @@ def the_plan_is_shown(view):
     yield 0.5
     with bpy.context.temp_override(**override(view)):
         assert bpy.ops.glint.plan() == {"FINISHED"}
-        for _ in range(4):
-            bpy.ops.view2d.scroll_down(deltay=50)
     yield 0.5
-    shoot(os.path.join(folder(), "plan.png"), view)
+    with bpy.context.temp_override(**override(view)):
+        bpy.ops.screen.screenshot_area(filepath=os.path.join(folder(), "plan.png"))  # as docs/blender.md shows it
 
 
 # ---- jobs ----
@@ -145,6 +144,14 @@ def escape_stops_a_job():
 
 
 # ---- messages ----
+
+
+def pixels_of(path):
+    image = bpy.data.images.load(path)
+    width, height = image.size
+    values = numpy.empty(width * height * 4, numpy.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(height, width, 4)
 
 
 def hooks_open_a_message():
