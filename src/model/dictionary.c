@@ -69,7 +69,7 @@ static void find_point(const model_query *q, int discrete, point *p)
 typedef struct carriers {
     size_t count;
     dictionary_cells cells;
-    float weight[DICTIONARY_MAX_CELLS], log4_facets[DICTIONARY_MAX_CELLS];
+    float weight[DICTIONARY_MAX_CELLS];
 } carriers;
 
 static void find_carriers(const point *p, carriers *c)
@@ -80,27 +80,10 @@ static void find_carriers(const point *p, carriers *c)
         const float coverage = dictionary_cell_coverage(&p->surface, cell->hash, p->patch.grain_level[cell->level]);
         if (!(coverage > 0.0F))
             continue;
-        const float log4_facets =
-            dictionary_cell_log4(&p->surface, cell->hash, p->patch.log4_facets[cell->level], coverage);
-        const int level = dictionary_level(log4_facets);
         c->cells.hash[c->count] = cell->hash;
-        c->cells.level[c->count] = level < DICTIONARY_LEVELS ? level : DICTIONARY_LEVELS - 1;
-        c->weight[c->count] = p->discrete_share * cell->weight * coverage;
-        c->log4_facets[c->count++] = log4_facets;
-    }
-}
-
-/* P22 of each at one slope; where the cell is the target's, any number. */
-static void find_densities(const point *p, carriers *c, slope at, float *density)
-{
-    if (p->surface.target.kind == NDF_BECKMANN) {
-        dictionary_cells_density(&p->surface, &c->cells, c->count, at, density);
-        return;
-    }
-    for (size_t i = 0; i < c->count; i++) {
-        dictionary_cell_slopes s;
-        dictionary_cell_find(&s, &p->surface, c->cells.hash[i], c->log4_facets[i]);
-        density[i] = dictionary_cell_density(&s, &p->surface.target, at);
+        c->cells.log4_facets[c->count] =
+            dictionary_cell_log4(&p->surface, cell->hash, p->patch.log4_facets[cell->level], coverage);
+        c->weight[c->count++] = p->discrete_share * cell->weight * coverage;
     }
 }
 
@@ -114,14 +97,14 @@ static point_density density_at(const point *p, const glint_material_options *o,
     carriers c;
     float density[DICTIONARY_ROOM];
     find_carriers(p, &c);
-    find_densities(p, &c, (slope){ -h.x / cosine, -h.y / cosine }, density);
+    dictionary_cells_density(&p->surface, &c.cells, c.count, (slope){ -h.x / cosine, -h.y / cosine }, density);
     float tinted[3] = { d.plain, d.plain, d.plain };
     for (size_t i = 0; i < c.count; i++) {
-        const int is_target = dictionary_level(c.log4_facets[i]) >= DICTIONARY_LEVELS;
+        const int is_target = dictionary_cell_is_target(c.cells.log4_facets[i]);
         const float one = c.weight[i] * (is_target ? target : density[i] / (cosine2 * cosine2));
         float tint[3] = { 1.0F, 1.0F, 1.0F };
         if (is_colored)
-            tint_of(&palette, c.cells.hash[i], dictionary_cell_facets(c.log4_facets[i]), tint);
+            tint_of(&palette, c.cells.hash[i], dictionary_cell_facets(c.cells.log4_facets[i]), tint);
         d.plain += one;
         for (int k = 0; k < 3; k++)
             tinted[k] += one * tint[k];

@@ -40,9 +40,6 @@ typedef struct dictionary_cell_slopes {
  * grain_level: see dictionary_patch. */
 float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash, int grain_level);
 
-/* Which random numbers of a cell its lobes take: those of scale j, from FIRST_SCALE + j. */
-enum { DICTIONARY_FIRST_SCALE = 8, DICTIONARY_TURN = 1, DICTIONARY_PICK = 2 };
-
 /* The logarithm of how many facets a cell has, in [0, DICTIONARY_LEVELS]. log4_facets: in the mean, see
  * dictionary_patch; coverage > 0: of this cell. */
 float dictionary_cell_log4(const dictionary_surface *surface, uint32_t hash, float log4_facets, float coverage);
@@ -50,10 +47,10 @@ float dictionary_cell_log4(const dictionary_surface *surface, uint32_t hash, flo
 /* How many facets these are, at least 1. */
 float dictionary_cell_facets(float log4_facets);
 
-/* The dictionary's level for 4^log4_facets facets, log4_facets >= 0; DICTIONARY_LEVELS and above: the target. */
-static inline int dictionary_level(float log4_facets)
+/* Whether a cell of so many, log4_facets >= 0, cannot be told from the target. */
+static inline int dictionary_cell_is_target(float log4_facets)
 {
-    return (int)(log4_facets + 0.5F);
+    return log4_facets >= (float)DICTIONARY_LEVELS - 0.5F;
 }
 
 /* Fills *s for a cell with facets. log4_facets: of this cell. */
@@ -63,10 +60,8 @@ void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *s
 /* Whether every cell with so many facets has the target's slopes and the mean coverage, whatever its hash. */
 int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets);
 
-/* P22 of a cell that is not the target's, in 1 / slope^2; its integral over the plane is 1. */
-float dictionary_cell_density(const dictionary_cell_slopes *s, const ndf *target, slope at);
-
-/* A slope with that density; *choice, u1 and u2 uniform in [0, 1). *choice is uniform again afterwards. */
+/* A slope of the cell, with the density that dictionary_cells_density has; *choice, u1 and u2 uniform in [0, 1).
+ * *choice is uniform again afterwards. */
 slope dictionary_cell_sample(const dictionary_cell_slopes *s, const ndf *target, float *choice, float u1, float u2);
 
 /* A slope of the target itself. */

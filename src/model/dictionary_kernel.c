@@ -1,39 +1,41 @@
 /* GLINT_LANES cells of a dictionary at a time. */
 #include "model/dictionary_kernel.h"
 
-#include "math/elementary.h"
-#include "math/hash.h"
+#include "model/dictionary_lanes.h"
 
 /* Weight of a cell at distance r from the centre, r = 1 on the ellipse: exp(-2 r^2) - exp(-2), Heckbert's filter. */
 #define FILTER_SHARPNESS 2.0F
 #define FILTER_EDGE 0.135335283F
 
-static inline vuint draw(vuint hash, uint32_t which)
+/* P22 of one product of marginals at a slope of the dictionary's roughness, of 4^log4_facets facets. */
+static inline vfloat lobe_density(const dictionary *table, vuint hash, vfloat log4_facets, vfloat x, vfloat y)
 {
-    return hash_full(hash + which * HASH_X);
+    const vint level = level_of(log4_facets);
+    const vmask is_target = less_i(splat_i(DICTIONARY_LEVELS - 1), level);
+    const vint first = choose_i(is_target, splat_i(0), level) * DICTIONARY_MARGINALS;
+    const lobe_pick p = pick_lobe(hash);
+    const vfloat along = marginal_density(table->marginal[0], first + p.along, p.cosine * x + p.sine * y);
+    const vfloat across = marginal_density(table->marginal[0], first + p.across, p.cosine * y - p.sine * x);
+    const vfloat product = choose(less(splat(0.0F), along), along * across, splat(0.0F));
+    return any(is_target) ? choose(is_target, gaussian_density(x) * gaussian_density(y), product) : product;
 }
 
-/* An IEEE half float that is not negative. */
-static inline vfloat float_of(vuint half)
+/* A mixture of scales. */
+static inline vfloat ggx_density(const dictionary *table, vuint cell, vfloat log4_facets, vfloat x, vfloat y)
 {
-    return float_from_bits(half << 13) * 0x1p112F;
-}
-
-/* dictionary_density of a marginal, by its number in the whole table. */
-static inline vfloat density_of(const dictionary *table, vint marginal, vfloat x)
-{
-    const vfloat t = abs_f(x) * (1.0F / DICTIONARY_SPACING);
-    const vmask inside = less(t, splat((float)DICTIONARY_SAMPLES));
-    const vfloat place = choose(inside, t, splat(0.0F));
-    const vint i = to_int(place);
-    const vfloat f = place - to_float(i);
-    /* Both samples at once; the last one as the second of two. */
-    const vmask is_last = less_i(splat_i(DICTIONARY_SAMPLES - 2), i);
-    const vint first = choose_i(is_last, splat_i(DICTIONARY_SAMPLES - 2), i);
-    const vuint pair = gather_u(table->marginal, (marginal * DICTIONARY_SAMPLES + first) * (int32_t)sizeof(uint16_t));
-    const vfloat low = float_of(pair & 0xffffU), high = float_of(pair >> 16);
-    const vfloat left = choose(is_last, high, low), right = choose(is_last, splat(0.0F), high);
-    return choose(inside, left + f * (right - left), splat(0.0F));
+    scale_set set = ggx_scales(cell);
+    deal_to_scales(cell, log4_facets, set.share);
+    vfloat sum = splat(0.0F);
+    for (int j = 0; j < DICTIONARY_MAX_SCALES; j++) {
+        const vmask dealt = less(splat(0.0F), set.share[j]);
+        if (!any(dealt))
+            continue;
+        const vfloat share = choose(dealt, set.share[j], splat(1.0F)), scale = sqrt_f(set.e[j]);
+        const vfloat one = lobe_density(table, draw_of(cell, FIRST_SCALE + (uint32_t)j),
+                                        log4_of_share(log4_facets, share), x * scale, y * scale);
+        sum = sum + choose(dealt, share * scale * scale * one, splat(0.0F));
+    }
+    return sum;
 }
 
 #define JOIN_(a, b) a##b
@@ -48,19 +50,15 @@ void JOIN(dictionary_weigh_, GLINT_LANES)(const dictionary_corners *c, size_t co
     }
 }
 
-void JOIN(dictionary_look_, GLINT_LANES)(const dictionary *table, const dictionary_cells *cells, size_t count, float x,
-                                         float y, float *density)
+void JOIN(dictionary_look_, GLINT_LANES)(const dictionary *table, ndf_kind kind, const dictionary_cells *cells,
+                                         size_t count, float x, float y, float *density)
 {
     for (size_t i = 0; i < count; i += GLINT_LANES) {
-        const vuint hash = draw(load_u(cells->hash + i), DICTIONARY_FIRST_SCALE);
-        vfloat sine, cosine;
-        sincos_pi(to_float((vint)(draw(hash, DICTIONARY_TURN) >> 8)) * 0x1p-24F, &sine, &cosine);
-        const vuint pick = draw(hash, DICTIONARY_PICK);
-        const vint first = load_i(cells->level + i) * DICTIONARY_MARGINALS;
-        const vfloat along =
-            density_of(table, first + (vint)((pick >> 16) * DICTIONARY_MARGINALS >> 16), cosine * x + sine * y);
-        const vfloat across =
-            density_of(table, first + (vint)((pick & 0xffffU) * DICTIONARY_MARGINALS >> 16), cosine * y - sine * x);
-        store_f(density + i, choose(less(splat(0.0F), along), along * across, splat(0.0F)));
+        const vuint cell = load_u(cells->hash + i);
+        const vfloat log4_facets = load_f(cells->log4_facets + i);
+        const vfloat d = kind == NDF_GGX
+                             ? ggx_density(table, cell, log4_facets, splat(x), splat(y))
+                             : lobe_density(table, draw_of(cell, FIRST_SCALE), log4_facets, splat(x), splat(y));
+        store_f(density + i, d);
     }
 }

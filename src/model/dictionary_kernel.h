@@ -18,18 +18,18 @@ typedef struct dictionary_corners {
     float r2[DICTIONARY_ROOM];                            /* square of the distance from the centre, 1 on the ellipse */
 } dictionary_corners;
 
-/* Cells with one product of marginals each, as Beckmann's are. */
+/* Cells with 4^log4_facets facets, log4_facets >= 0, none of which is the target. */
 typedef struct dictionary_cells {
     uint32_t hash[DICTIONARY_ROOM];
-    int32_t level[DICTIONARY_ROOM]; /* of the dictionary, below DICTIONARY_LEVELS */
+    float log4_facets[DICTIONARY_ROOM];
 } dictionary_cells;
 
 /* Hashes and weights, not yet normalised. Counts are multiples of the width. */
 typedef void dictionary_weigh(const dictionary_corners *corners, size_t count, uint32_t *hash, float *weight);
 
 /* density[i]: P22 of cell i at the slope (x, y) of the dictionary's roughness. */
-typedef void dictionary_look(const dictionary *table, const dictionary_cells *cells, size_t count, float x, float y,
-                             float *density);
+typedef void dictionary_look(const dictionary *table, ndf_kind kind, const dictionary_cells *cells, size_t count,
+                             float x, float y, float *density);
 
 dictionary_weigh dictionary_weigh_1, dictionary_weigh_4, dictionary_weigh_8, dictionary_weigh_16;
 dictionary_look dictionary_look_1, dictionary_look_4, dictionary_look_8, dictionary_look_16;
@@ -45,7 +45,8 @@ dictionary_width dictionary_widest(size_t most_lanes);
 /* Arrays have room for DICTIONARY_ROOM; what follows the first count is filled up. */
 void dictionary_corners_weigh(dictionary_corners *corners, size_t count, uint32_t *hash, float *weight);
 
-/* dictionary_cell_density of the first count cells, for a surface whose distribution is Beckmann's. */
+/* P22 of cells at one slope, in 1 / slope^2; its integral over the plane is 1. Of cells that are the target it is any
+ * number. */
 void dictionary_cells_density(const dictionary_surface *surface, dictionary_cells *cells, size_t count, slope at,
                               float *density);
 

@@ -39,9 +39,10 @@ void dictionary_cells_density(const dictionary_surface *surface, dictionary_cell
     const float to_x = DICTIONARY_ALPHA / surface->target.alpha_x, to_y = DICTIONARY_ALPHA / surface->target.alpha_y;
     for (size_t i = count; i < padded(count); i++) {
         cells->hash[i] = 0U;
-        cells->level[i] = 0;
+        cells->log4_facets[i] = 0.0F;
     }
-    dictionary_widest(MOST_LANES).look(surface->table, cells, padded(count), at.x * to_x, at.y * to_y, density);
+    dictionary_widest(MOST_LANES)
+        .look(surface->table, surface->target.kind, cells, padded(count), at.x * to_x, at.y * to_y, density);
     for (size_t i = 0; i < count; i++)
         density[i] = density[i] * to_x * to_y;
 }

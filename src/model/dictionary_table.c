@@ -14,6 +14,7 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 #include "math/hash.h"
+#include "model/dictionary_lanes.h"
 
 #define LOBE_SIGMA 0.02F
 
@@ -80,11 +81,6 @@ static uint16_t half_of(float x)
         return 0;
     const uint32_t u = bits_of(x) - (112U << 23);
     return (uint16_t)((u + 0xfffU + (u >> 13 & 1U)) >> 13);
-}
-
-static float float_of(uint16_t h)
-{
-    return float_from_bits((uint32_t)h << 13) * 0x1p112F;
 }
 
 /* ---- places of lobes ---- */
@@ -174,7 +170,7 @@ static void fold_and_normalize(const lobe_sum *sum, dictionary_marginal marginal
         const float wanted = folded[i] * scale + carried;
         marginal[i] = half_of(wanted);
         /* Half of sample 0 counts, as its other half is that of the mirror image. */
-        carried = (wanted - float_of(marginal[i])) * (i > 0 ? 1.0F : 0.5F);
+        carried = (wanted - float_of_half(marginal[i])) * (i > 0 ? 1.0F : 0.5F);
     }
 }
 
@@ -198,24 +194,17 @@ void dictionary_build(dictionary *d, dictionary_scratch *scratch, uint32_t seed)
 
 float dictionary_density(const dictionary_marginal marginal, float x)
 {
-    const float t = fabsf(x) * (1.0F / DICTIONARY_SPACING);
-    if (!(t < (float)DICTIONARY_SAMPLES))
-        return 0.0F;
-    const int i = (int)t;
-    const float f = t - (float)i;
-    const float left = float_of(marginal[i]);
-    const float right = i + 1 < DICTIONARY_SAMPLES ? float_of(marginal[i + 1]) : 0.0F;
-    return left + f * (right - left);
+    return marginal_density((const dictionary_marginal *)marginal, 0, x);
 }
 
 float dictionary_quantile(const dictionary_marginal marginal, float u)
 {
     /* Twice the distance from the median is the share of |x| below the one that is sought. */
     const float signed_share = 2.0F * u - 1.0F;
-    float left = float_of(marginal[0]);
+    float left = float_of_half(marginal[0]);
     float rest = fabsf(signed_share) * (0.5F / DICTIONARY_SPACING);
     for (int i = 0; i < DICTIONARY_SAMPLES; i++) {
-        const float right = i + 1 < DICTIONARY_SAMPLES ? float_of(marginal[i + 1]) : 0.0F;
+        const float right = i + 1 < DICTIONARY_SAMPLES ? float_of_half(marginal[i + 1]) : 0.0F;
         const float segment = 0.5F * (left + right);
         if (rest < segment) {
             /* rest = left t + (right - left) t^2 / 2, without the difference of nearly equal numbers. */

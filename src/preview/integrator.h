@@ -17,7 +17,7 @@ typedef struct world {
     const light *lights;
     int light_count;
     const light_tree *light_tree; /* where there are more lights than MOST_LIGHTS */
-    const emitters *emitters; /* NULL: nothing glows, or bounces that would find it are not asked for */
+    const emitters *emitters;     /* NULL: nothing glows, or bounces that would find it are not asked for */
     shader shader;
     preview_sky sky;
     const environment *environment; /* in place of the sky; NULL: none */

@@ -31,7 +31,7 @@ typedef struct view {
     camera camera;
     light *lights;
     light_tree light_tree; /* of many lights */
-    planned planned; /* where the options leave something out */
+    planned planned;       /* where the options leave something out */
     world world;
 } view;
 

@@ -8,7 +8,7 @@ set key top right Left reverse
 set bars 0.6
 low(e, b) = e - b > 2e-6 ? e - b : 2e-6
 array name[8] = ['gated Gaussian as printed', 'gated Gaussian cut at 0 (DB23)', 'cut to [1; N] (KK24)', 'libglint walking to 2', \
-    'libglint walking to 5', 'libglint (walking to 8)', 'libglint walking to 16', 'exact (BTPE)']
+    'libglint (walking to 5)', 'libglint walking to 8', 'libglint walking to 16', 'exact (BTPE)']
 of(k) = sprintf('< grep -F "%s," law_front.csv', name[k])
 array colour[8] = [2, 5, 4, 6, 3, 1, 7, 7]
 array shape[8] = [5, 13, 11, 9, 9, 7, 9, 2]
