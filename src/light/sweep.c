@@ -98,13 +98,32 @@ typedef struct panel {
 } panel;
 
 typedef struct extent {
-    double turn, rise;
+    double turn, rise, tolerance;
 } extent;
+
+static vec3d direction_on(const area_light *l, int piece, double t)
+{
+    vec3d at, derivative;
+    area_boundary(l, piece, t, &at, &derivative);
+    return vec3d_normalize(at);
+}
+
+/* Opposite sides of a light that is seen nearly edge-on all but cancel: they have to be known as well as it is thin. A
+ * rectangle of one to fourteen is not. */
+static double tolerance_of(const area_light *l)
+{
+    double length = 0.0;
+    for (int i = 0; i < area_piece_count(l); i++) {
+        const vec3d a = direction_on(l, i, 0.0), b = direction_on(l, i, 0.5), c = direction_on(l, i, 1.0);
+        length += vec3d_length(vec3d_sub(b, a)) + vec3d_length(vec3d_sub(c, b));
+    }
+    return TOLERANCE * real_min(1.0, 64.0 * vec3d_length(l->moment) / real_max(length * length, 1e-30));
+}
 
 /* How far the boundary goes around and up and down: what is not to be missed. */
 static extent extent_of(const area_light *l, const sweep_map *m)
 {
-    extent e = { 0.0, 0.0 };
+    extent e = { 0.0, 0.0, tolerance_of(l) };
     for (int i = 0; i < area_piece_count(l); i++) {
         const place a = place_on(l, m, i, 0.0), b = place_on(l, m, i, 0.5), c = place_on(l, m, i, 1.0);
         e.turn += fabs(turn_between(&a, &b)) + fabs(turn_between(&b, &c));
@@ -115,8 +134,8 @@ static extent extent_of(const area_light *l, const sweep_map *m)
 
 static int is_resolved(const panel *p, const extent *all, double turn, double rise, double whole_turn)
 {
-    return fabs(turn - whole_turn) <= TOLERANCE * all->turn &&
-           fabs(rise - (p->last.v - p->first.v)) <= TOLERANCE * all->rise + 1e-12;
+    return fabs(turn - whole_turn) <= all->tolerance * all->turn &&
+           fabs(rise - (p->last.v - p->first.v)) <= all->tolerance * all->rise + 1e-12;
 }
 
 /* Visits a panel's nodes if they tell the truth about it. */

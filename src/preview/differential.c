@@ -14,7 +14,7 @@ static vec3 transfer_step(vec3 origin_step, vec3 direction_step, vec3 direction,
 {
     const vec3 step = v3_mad(origin_step, direction_step, distance);
     const double cosine = v3_dot(direction, normal);
-    const double safe = copysign(fmax(fabs(cosine), SMALLEST_COSINE), cosine);
+    const double safe = copysign(larger_of(fabs(cosine), SMALLEST_COSINE), cosine);
     return v3_mad(step, direction, -v3_dot(step, normal) / safe);
 }
 

@@ -16,13 +16,23 @@ bool geometry_make(const scene *s, geometry *out, report *r)
             to->to_world[k] = (double)s->instances[i].to_world[k];
         to->axis_scale = v3(v3_length(m4_column(to->to_world, 0)), v3_length(m4_column(to->to_world, 1)),
                             v3_length(m4_column(to->to_world, 2)));
+        to->mirrored =
+            v3_dot(m4_column(to->to_world, 0), v3_cross(m4_column(to->to_world, 1), m4_column(to->to_world, 2))) < 0.0;
         to->visible = m4_invert_affine(to->to_world, to->to_object);
-        if (!to->visible)
+    }
+    geometry_warn_of_flat(out, r);
+    return true;
+}
+
+void geometry_warn_of_flat(const geometry *g, report *r)
+{
+    const scene *const s = g->scene;
+    for (int i = 0; i < s->instance_count; ++i) {
+        if (!g->instances[i].visible)
             report_warning(r, "%s: nodes/%d (\"%s\"): its transform flattens it; it is not rendered",
                            s->path ? s->path : "scene", s->instances[i].node,
                            s->instances[i].name ? s->instances[i].name : "");
     }
-    return true;
 }
 
 void geometry_free(geometry *g)
@@ -63,8 +73,8 @@ bool geometry_meet(const geometry *g, int instance, uint32_t triangle, vec3 orig
     if (!isfinite(t) || !isfinite(b1) || !isfinite(b2))
         return false;
 
-    weights[0] = fmin(fmax(b1, 0.0), 1.0);
-    weights[1] = fmin(fmax(b2, 0.0), 1.0 - weights[0]);
+    weights[0] = smaller_of(larger_of(b1, 0.0), 1.0);
+    weights[1] = smaller_of(larger_of(b2, 0.0), 1.0 - weights[0]);
     *distance = t;
     return true;
 }

@@ -9,6 +9,7 @@
 typedef struct geometry_instance {
     double to_world[16], to_object[16];
     vec3 axis_scale; /* length of each axis of the object in metres */
+    bool mirrored;   /* right and left are swapped */
     bool visible;    /* false: its transform flattens it, nothing can be hit */
 } geometry_instance;
 
@@ -19,6 +20,8 @@ typedef struct geometry {
 
 /* Warns of every instance that is flattened. The scene must outlive the geometry. */
 bool geometry_make(const scene *s, geometry *out, report *r);
+/* Names the instances that are not visible. */
+void geometry_warn_of_flat(const geometry *g, report *r);
 void geometry_free(geometry *g);
 
 typedef struct triangle_corners {

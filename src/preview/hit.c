@@ -53,9 +53,7 @@ static void resolve_tangent(hit *h)
     }
     h->tangent = v3_dot(along, along) > 0.0 ? v3_normalize(along) : v3_any_tangent(h->normal);
     /* A mirroring node swaps right and left, and the bitangent follows the texture on the mesh. */
-    const double mirrored = v3_dot(m4_column(h->placed->to_world, 0),
-                                   v3_cross(m4_column(h->placed->to_world, 1), m4_column(h->placed->to_world, 2)));
-    h->bitangent = v3_scale(v3_cross(h->normal, h->tangent), mirrored < 0.0 ? -handedness : handedness);
+    h->bitangent = v3_scale(v3_cross(h->normal, h->tangent), h->placed->mirrored ? -handedness : handedness);
 }
 
 /* One of the values that the mesh has a vertex. */
@@ -65,16 +63,18 @@ static double interpolate_value(const hit *h, const float *values, size_t stride
                        (double)at_corner(h, values, stride, 2)[k], h->weights);
 }
 
-static void resolve_attributes(hit *h)
+void hit_texcoord(const hit *h, int set, double st[2])
+{
+    const float *const values = h->mesh->texcoord[set];
+    for (int k = 0; k < 2; ++k)
+        st[k] = values == NULL ? 0.0 : interpolate_value(h, values, 2, k);
+}
+
+void hit_color(const hit *h, float rgba[4])
 {
     const float *const color = h->mesh->color;
-    for (int set = 0; set < 2; ++set) {
-        const float *const st = h->mesh->texcoord[set];
-        for (int k = 0; k < 2; ++k)
-            h->texcoord[set][k] = st == NULL ? 0.0 : interpolate_value(h, st, 2, k);
-    }
     for (int k = 0; k < 4; ++k)
-        h->color[k] = color == NULL ? 1.0F : (float)interpolate_value(h, color, 4, k);
+        rgba[k] = color == NULL ? 1.0F : (float)interpolate_value(h, color, 4, k);
 }
 
 /* The mean of the projections of the point onto the tangent planes of the corners, where those lie outside: keeps the
@@ -89,10 +89,20 @@ static void resolve_shadow_origin(hit *h)
         vec3 n = v3_normalize(normal_to_world(h, corner_vector(h, h->mesh->normal, 3, k)));
         if (!h->front)
             n = v3_scale(n, -1.0);
-        const double below = fmin(v3_dot(v3_sub(h->position, corner), n), 0.0);
+        const double below = smaller_of(v3_dot(v3_sub(h->position, corner), n), 0.0);
         lift = v3_mad(lift, n, -below * weights[k]);
     }
     h->shadow_origin = v3_add(h->position, lift);
+}
+
+/* Embree sees the vertices, the transform and the ray in float: a few units in the last place of the largest number
+ * that takes part, 2^-23 each. 32 of them cover the chain of products and sums, and are 4 micrometres at 1 m. */
+static void resolve_clearance(hit *h)
+{
+    const double largest =
+        larger_of(v3_max_abs(h->position), larger_of(v3_max_abs(m4_vector(h->placed->to_world, h->position_object)),
+                                                     larger_of(v3_max_abs(h->edge[0]), v3_max_abs(h->edge[1]))));
+    h->clearance = largest * 32.0 * 0x1p-23;
 }
 
 void hit_locate(const geometry *g, const trace_hit *found, hit *out)
@@ -104,7 +114,6 @@ void hit_locate(const geometry *g, const trace_hit *found, hit *out)
     out->weights[0] = found->weights[0];
     out->weights[1] = found->weights[1];
     out->distance = found->distance;
-    resolve_attributes(out);
 }
 
 void hit_resolve(const geometry *g, const trace_ray *ray, const trace_hit *found, hit *out)
@@ -126,6 +135,7 @@ void hit_resolve(const geometry *g, const trace_ray *ray, const trace_hit *found
         h->normal = v3_scale(h->normal, -1.0);
     }
     resolve_shadow_origin(h);
+    resolve_clearance(h);
 }
 
 /* The weights w with w0 e0 + w1 e1 = step, by the normal equations. */
@@ -141,29 +151,30 @@ static void weights_of_step(const hit *h, vec3 step, double w[2])
     w[1] = determinant > 0.0 ? (sb * aa - sa * ab) / determinant : 0.0;
 }
 
-/* d(N / |N|) = (dN - n (n.dN)) / |N| */
-static vec3 normal_step(const hit *h, const double dw[2])
-{
-    const vec3 a = corner_vector(h, h->mesh->normal, 3, 0);
-    const vec3 b = corner_vector(h, h->mesh->normal, 3, 1);
-    const vec3 c = corner_vector(h, h->mesh->normal, 3, 2);
-    const vec3 whole = normal_to_world(h, interpolate_vector(h, h->mesh->normal, 3));
-    const vec3 step = normal_to_world(h, v3_mad(v3_scale(v3_sub(b, a), dw[0]), v3_sub(c, a), dw[1]));
-    const double length = v3_length(whole);
-    if (!(length > 0.0))
-        return v3(0.0, 0.0, 0.0);
-    return v3_scale(v3_reject(step, v3_scale(whole, 1.0 / length)), (h->front ? 1.0 : -1.0) / length);
-}
-
 hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction)
 {
     hit_step s;
     s.position = differential_transfer(d, direction, h->distance, h->geometric_normal);
     weights_of_step(h, s.position.dx, s.weights_dx);
     weights_of_step(h, s.position.dy, s.weights_dy);
-    s.normal.dx = normal_step(h, s.weights_dx);
-    s.normal.dy = normal_step(h, s.weights_dy);
     return s;
+}
+
+/* d(N / |N|) = (dN - n (n.dN)) / |N| */
+surface_step hit_turn(const hit *h, const hit_step *step)
+{
+    const vec3 a = corner_vector(h, h->mesh->normal, 3, 0);
+    const vec3 ab = v3_sub(corner_vector(h, h->mesh->normal, 3, 1), a);
+    const vec3 ac = v3_sub(corner_vector(h, h->mesh->normal, 3, 2), a);
+    const vec3 whole = normal_to_world(h, v3_mad(v3_mad(a, ab, h->weights[0]), ac, h->weights[1]));
+    const double length = v3_length(whole);
+    if (!(length > 0.0))
+        return (surface_step){ v3(0.0, 0.0, 0.0), v3(0.0, 0.0, 0.0) };
+    const vec3 n = v3_scale(whole, 1.0 / length);
+    const double side = (h->front ? 1.0 : -1.0) / length;
+    const vec3 dx = normal_to_world(h, v3_mad(v3_scale(ab, step->weights_dx[0]), ac, step->weights_dx[1]));
+    const vec3 dy = normal_to_world(h, v3_mad(v3_scale(ab, step->weights_dy[0]), ac, step->weights_dy[1]));
+    return (surface_step){ v3_scale(v3_reject(dx, n), side), v3_scale(v3_reject(dy, n), side) };
 }
 
 void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2], double dy[2])
@@ -201,10 +212,5 @@ void hit_texcoord_axes(const hit *h, int set, vec3 *s, vec3 *t)
 
 vec3 hit_leave(const hit *h, vec3 from)
 {
-    /* Embree sees the vertices, the transform and the ray in float: a few units in the last place of the largest number
-     * that takes part, 2^-23 each. 32 of them cover the chain of products and sums, and are 4 micrometres at 1 m. */
-    const double largest =
-        fmax(v3_max_abs(h->position), fmax(v3_max_abs(m4_vector(h->placed->to_world, h->position_object)),
-                                           fmax(v3_max_abs(h->edge[0]), v3_max_abs(h->edge[1]))));
-    return v3_mad(from, h->geometric_normal, largest * 32.0 * 0x1p-23);
+    return v3_mad(from, h->geometric_normal, h->clearance);
 }

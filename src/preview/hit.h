@@ -19,24 +19,30 @@ typedef struct hit {
     vec3 tangent;                  /* world, unit, perpendicular to normal; along u where the mesh has tangents */
     vec3 bitangent;                /* along v: cross(normal, tangent) times the handedness, normal of the front */
     vec3 shadow_origin;            /* where shadow rays start: on the surface that the normals suggest */
-    double texcoord[2][2];         /* of both sets; 0 where the mesh has none */
-    float color[4];                /* of the vertices; 1 where there is none */
+    double clearance;              /* metres: see hit_leave */
 } hit;
 
 /* How the weights of the triangle and with them everything interpolated changes with a step of one pixel. */
 typedef struct hit_step {
     surface_step position;
     double weights_dx[2], weights_dy[2];
-    surface_step normal; /* of the interpolated unit normal */
 } hit_step;
 
-/* Only what needs no view of it: triangle, texture coordinates and colour. */
+/* Only what needs no view of it: the triangle and the place in it. */
 void hit_locate(const geometry *g, const trace_hit *found, hit *out);
 
 void hit_resolve(const geometry *g, const trace_ray *ray, const trace_hit *found, hit *out);
 
 /* The differential of the ray that led to the hit, carried to the surface. */
 hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction);
+
+/* How the interpolated unit normal turns along the same steps. */
+surface_step hit_turn(const hit *h, const hit_step *step);
+
+/* Texture coordinates; 0 where the mesh has none. */
+void hit_texcoord(const hit *h, int set, double st[2]);
+/* Colour of the vertices; 1 where they have none. */
+void hit_color(const hit *h, float rgba[4]);
 
 /* d(s, t)/dx and /dy of a set of texture coordinates; zero where the mesh has none. */
 void hit_texcoord_step(const hit *h, const hit_step *step, int set, double dx[2], double dy[2]);

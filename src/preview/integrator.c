@@ -42,19 +42,20 @@ static float to_uniform(double u)
     return fminf((float)u, BELOW_ONE);
 }
 
-static bool arrive(const world *w, vertex *v, trace_blending blending, const sampler *random, int depth)
+/* Makes what the ray has found ready for light. */
+static void look(const world *w, vertex *v, const sampler *random, int depth)
 {
-    if (!trace_closest(w->trace, &v->ray, blending, &v->found))
-        return false;
-    double choice[2];
-    sampler_pair(random, dimension(depth, DIM_PLACE), choice);
+    double choice[2] = { 0.0, 0.0 };
     hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
     v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
+    if (shade_wants_choice(&w->shader, &v->hit))
+        sampler_pair(random, dimension(depth, DIM_PLACE), choice);
     shade_prepare(&w->shader, &v->hit, &v->hit_step, v3_scale(v->ray.direction, -1.0), to_uniform(choice[0]),
                   &v->point);
     for (int i = 0; i < v->point.layer_count; ++i)
-        v->point.layers[i].footprint.draw = hash_combine(sampler_bits(random, dimension(depth, DIM_DRAW)), (uint32_t)i);
-    return true;
+        if (v->point.layers[i].counts)
+            v->point.layers[i].footprint.draw =
+                hash_combine(sampler_bits(random, dimension(depth, DIM_DRAW)), (uint32_t)i);
 }
 
 static void add_light(radiance *sum, const float throughput[3], const float added[3])
@@ -79,7 +80,7 @@ static bool leave(const world *w, vertex *v, const sampler *random, int depth, s
         return false;
 
     const vec3 half = v3_normalize(v3_sub(next->wi, v->ray.direction));
-    v->step = differential_reflect(&v->step, v->ray.direction, half, &v->hit_step.position, &v->hit_step.normal);
+    v->step = differential_reflect(&v->step, v->ray.direction, half, &v->hit_step.position, &v->turn);
     differential_widen(&v->step, next->wi, fmin(1.0 / ((double)next->pdf * w->spp), 2.0 * PREVIEW_PI));
     v->ray = (trace_ray){ .origin = hit_leave(&v->hit, v->hit.position),
                           .direction = next->wi,
@@ -96,6 +97,7 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
     if (w->bounces < 1 && !w->has_sky)
         return;
     vertex v = *from;
+    v.turn = hit_turn(&v.hit, &v.hit_step);
     for (int depth = 1; depth <= w->bounces || w->has_sky; ++depth) {
         shade_direction next;
         shade_point left;
@@ -104,17 +106,19 @@ static void add_indirect_light(const world *w, const vertex *from, const sampler
         if (!leave(w, &v, random, depth - 1, &next))
             return;
         ++counts->bounce_rays;
-        if (!arrive(w, &v, TRACE_BLEND_RANDOM, random, depth)) {
+        if (!trace_closest(w->trace, &v.ray, TRACE_BLEND_RANDOM, &v.found)) {
             add_escaped_light(w, &v.point, &next, throughput, sum, counts);
             return;
         }
         if (depth > w->bounces)
             return;
+        look(w, &v, random, depth);
+        v.turn = hit_turn(&v.hit, &v.hit_step);
         const bool sampled = w->emitters != NULL && add_found_glow(w, &left, &next, &v.found, &v.hit, v.point.emission,
                                                                    throughput, sum, counts);
         for (int c = 0; c < 3; ++c)
             throughput[c] *= next.weight[c];
-        shade_widen(&v.point, differential_half_vector_variance(&v.step, &v.hit_step.normal));
+        shade_widen(&v.point, differential_half_vector_variance(&v.step, &v.turn));
         if (!sampled)
             add_light(sum, throughput, v.point.emission);
         add_direct_light(w, &v.hit, &v.point, random, dimension(depth, DIM_LIGHTS), throughput, sum, NULL, counts);
@@ -178,7 +182,10 @@ static void add_seen_sky(const world *w, vec3 direction, float share, pixel_samp
 /* The samples of a layer that is seen through others are spread apart from theirs. */
 static sampler sampler_of_layer(const sampler *pixel, int layer)
 {
-    return layer == 0 ? *pixel : (sampler){ hash_combine(pixel->pixel, (uint32_t)layer), pixel->sample };
+    sampler own = *pixel;
+    if (layer > 0)
+        own.pixel = hash_combine(pixel->pixel, (uint32_t)layer);
+    return own;
 }
 
 int preview_footprint_side(int spp)
@@ -232,8 +239,9 @@ bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
     double jitter[2];
     const sampler pixel = sampler_make(x, y, index, w->seed);
     leave_camera(w, x, y, &pixel, jitter, v);
-    if (!arrive(w, v, TRACE_BLEND_SOLID, &pixel, 0))
+    if (!trace_closest(w->trace, &v->ray, TRACE_BLEND_SOLID, &v->found))
         return false;
+    look(w, v, &pixel, 0);
     tile_footprints(w, jitter, &v->point);
     return true;
 }
@@ -250,10 +258,11 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
     for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {
         const sampler random = sampler_of_layer(&pixel, layer);
         ++counts->camera_rays;
-        if (!arrive(w, &v, TRACE_BLEND_SOLID, &random, 0)) {
+        if (!trace_closest(w->trace, &v.ray, TRACE_BLEND_SOLID, &v.found)) {
             add_seen_sky(w, v.ray.direction, transmittance, out);
             return;
         }
+        look(w, &v, &random, 0);
         tile_footprints(w, jitter, &v.point);
         direct_facets facets = { 0 };
         const radiance seen = light_of_layer(w, &v, &random, &facets, counts);

@@ -5,6 +5,7 @@
 #define LARGEST_CAP (2.0 * PREVIEW_PI * (1.0 - 1e-6))
 /* A light without size would light no facet: an angular radius of 1e-5 rad, a 50th of a planet's disc. Taste. */
 #define SMALLEST_ANGLE 1e-5
+#define SMALLEST_CAP (PREVIEW_PI * SMALLEST_ANGLE * SMALLEST_ANGLE)
 
 double light_cap_sr(double angular_radius_rad)
 {
@@ -14,7 +15,14 @@ double light_cap_sr(double angular_radius_rad)
 
 static double clamp_cap(double solid_angle)
 {
-    return fmin(fmax(solid_angle, light_cap_sr(SMALLEST_ANGLE)), LARGEST_CAP);
+    return smaller_of(larger_of(solid_angle, SMALLEST_CAP), LARGEST_CAP);
+}
+
+/* The same as light_cap_sr(asin(sine)): 1 - sqrt(1 - s^2) = s^2 / (1 + sqrt(1 - s^2)). */
+static double cap_of_sine(double sine)
+{
+    const double square = sine * sine;
+    return 2.0 * PREVIEW_PI * square / (1.0 + sqrt(1.0 - square));
 }
 
 /* EXT_lights_area: upright in the plane of the node's x and y, shining along -z. */
@@ -58,7 +66,7 @@ static double shape_sine(double sine)
 
 static double spot_factor(const light *l, vec3 wi)
 {
-    const double t = fmin(fmax(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
+    const double t = smaller_of(larger_of(v3_dot(l->axis, wi) * l->cone_scale + l->cone_offset, 0.0), 1.0);
     return t * t;
 }
 
@@ -67,7 +75,7 @@ static double range_factor(double distance, double range)
 {
     const double ratio = distance / range;
     const double square = ratio * ratio;
-    return fmax(1.0 - square * square, 0.0);
+    return larger_of(1.0 - square * square, 0.0);
 }
 
 static bool set_irradiance(const light *l, double factor, light_view *out)
@@ -101,9 +109,9 @@ bool light_see(const light *l, vec3 position, light_view *out)
         return v3_dot(towards, l->axis) > 0.0 && set_irradiance(l, 1.0, out);
     }
     /* A sphere of radius r: sin of its angular radius is r / d. Inside it, the cap is held below a hemisphere. */
-    const double sine = fmin(l->radius / distance, 1.0);
+    const double sine = smaller_of(l->radius / distance, 1.0);
     out->sine = shape_sine(sine);
-    out->solid_angle_sr = (float)clamp_cap(light_cap_sr(asin(sine)));
+    out->solid_angle_sr = (float)clamp_cap(cap_of_sine(sine));
     const double cone = l->kind == SCENE_LIGHT_SPOT ? spot_factor(l, out->wi) : 1.0;
     return set_irradiance(l, cone * range_factor(distance, l->range) / (distance * distance), out);
 }
@@ -140,7 +148,7 @@ void light_pick(const light *l, const light_view *view, vec3 position, const dou
 
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
         const double cosine = 1.0 - u[0] * (1.0 - l->cosine); /* even over the cap */
-        const double sine = sqrt(fmax(1.0 - cosine * cosine, 0.0));
+        const double sine = sqrt(larger_of(1.0 - cosine * cosine, 0.0));
         const vec3 side = v3_mad(v3_scale(tangent, cos(angle) * sine), bitangent, sin(angle) * sine);
         *direction = v3_normalize(v3_mad(side, view->wi, cosine));
         *distance = (double)INFINITY;

@@ -12,10 +12,11 @@ static uint32_t seed_of(const hit *h, uint32_t plane)
 static glint_footprint place_by_texcoord(const scene_glint *g, const hit *h, const hit_step *step)
 {
     const double scale = (double)g->uv_scale;
-    double dx[2], dy[2];
+    double st[2], dx[2], dy[2];
+    hit_texcoord(h, g->texcoord, st);
     hit_texcoord_step(h, step, g->texcoord, dx, dy);
-    return (glint_footprint){ .u = h->texcoord[g->texcoord][0] * scale,
-                              .v = h->texcoord[g->texcoord][1] * scale,
+    return (glint_footprint){ .u = st[0] * scale,
+                              .v = st[1] * scale,
                               .dudx = (float)(dx[0] * scale),
                               .dudy = (float)(dy[0] * scale),
                               .dvdx = (float)(dx[1] * scale),
@@ -82,23 +83,23 @@ static glint_footprint place_on_planes(const hit *h, const hit_step *step, float
                               .seed = seed_of(h, (uint32_t)plane + 1U) };
 }
 
-static bool is_in_texture_space(const scene_glint *g, const hit *h)
+bool place_is_in_texture_space(const scene_glint *g, const scene_mesh *mesh)
 {
-    return g->space == SCENE_SPACE_UV && h->mesh->texcoord[g->texcoord] != NULL;
+    return g->space == SCENE_SPACE_UV && mesh->texcoord[g->texcoord] != NULL;
 }
 
 glint_footprint place_footprint(const scene_glint *g, const hit *h, const hit_step *step, float choice,
                                 float *density_scale)
 {
     *density_scale = 1.0F;
-    if (is_in_texture_space(g, h))
+    if (place_is_in_texture_space(g, h->mesh))
         return place_by_texcoord(g, h, step);
     return place_on_planes(h, step, choice, density_scale);
 }
 
 void place_axes(const scene_glint *g, const hit *h, float choice, vec3 *along_u, vec3 *along_v)
 {
-    if (is_in_texture_space(g, h)) {
+    if (place_is_in_texture_space(g, h->mesh)) {
         hit_texcoord_axes(h, g->texcoord, along_u, along_v);
         return;
     }

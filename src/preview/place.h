@@ -13,6 +13,9 @@
 glint_footprint place_footprint(const scene_glint *g, const hit *h, const hit_step *step, float choice,
                                 float *density_scale);
 
+/* Else they lie on the planes, and choice is read. */
+bool place_is_in_texture_space(const scene_glint *g, const scene_mesh *mesh);
+
 /* Where u and v of that footprint run to, in world space and of any length; zero where the mesh does not say. */
 void place_axes(const scene_glint *g, const hit *h, float choice, vec3 *along_u, vec3 *along_v);
 

@@ -99,6 +99,22 @@ bool preview_stage_open(const scene *s, const preview_options *options, preview_
 /* NULL is allowed. Its pictures must be closed before. */
 void preview_stage_close(preview_stage *stage);
 
+/* What a stage makes anew after its caller has put something else into the scene: meshes and instances stay, and with
+ * them the tree. Lights need nothing. */
+typedef struct preview_change {
+    const scene_material *before; /* NULL, or the materials that the scene had, as many as now */
+    bool images;                  /* the scene has other images */
+    bool environment;             /* that of the options is another one */
+} preview_change;
+
+/* Of the options counts what preview_stage_open says. No picture of the stage may be open. On failure the stage is as
+ * it was before, and the scene must become so again. */
+bool preview_stage_change(preview_stage *stage, const preview_change *change, const preview_options *options,
+                          report *r);
+
+/* As preview_plan, of a stage that stands. */
+bool preview_stage_plan(const preview_stage *stage, const preview_options *options, glint_plan **plan, report *r);
+
 /* One picture under way. Any number may be open on a stage, each in a thread of its own. */
 typedef struct preview_picture preview_picture;
 

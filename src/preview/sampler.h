@@ -5,8 +5,9 @@
 #include <stdint.h>
 
 typedef struct sampler {
-    uint32_t pixel;  /* hash of the pixel and the render's seed */
-    uint32_t sample; /* which of the pixel's samples */
+    uint32_t pixel;    /* hash of the pixel and the render's seed */
+    uint32_t sample;   /* which of the pixel's samples */
+    uint32_t reversed; /* its bits */
 } sampler;
 
 sampler sampler_make(int x, int y, uint32_t sample, uint32_t seed);

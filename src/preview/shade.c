@@ -11,7 +11,7 @@
 typedef struct lookup {
     const textures *textures;
     const hit *hit;
-    double dx[2][2], dy[2][2]; /* of both sets of texture coordinates */
+    double st[2][2], dx[2][2], dy[2][2]; /* both sets of texture coordinates */
 } lookup;
 
 static void look_up(const lookup *l, const scene_texture *t, float rgba[4])
@@ -20,23 +20,27 @@ static void look_up(const lookup *l, const scene_texture *t, float rgba[4])
     if (t->image == SCENE_NONE)
         return;
     const int set = t->texcoord;
-    texture_lookup(l->textures, t, (float)l->hit->texcoord[set][0], (float)l->hit->texcoord[set][1],
-                   (float)l->dx[set][0], (float)l->dx[set][1], (float)l->dy[set][0], (float)l->dy[set][1], rgba);
+    texture_lookup(l->textures, t, (float)l->st[set][0], (float)l->st[set][1], (float)l->dx[set][0],
+                   (float)l->dx[set][1], (float)l->dy[set][0], (float)l->dy[set][1], rgba);
 }
 
 static lookup make_lookup(const shader *s, const hit *h, const hit_step *step)
 {
     lookup l = { .textures = s->textures, .hit = h };
-    for (int set = 0; set < 2; ++set)
+    for (int set = 0; set < 2; ++set) {
+        hit_texcoord(h, set, l.st[set]);
         hit_texcoord_step(h, step, set, l.dx[set], l.dy[set]);
+    }
     return l;
 }
 
 static void look_up_base_color(const lookup *l, const scene_material *m, float rgba[4])
 {
+    float of_vertices[4];
     look_up(l, &m->base_color_texture, rgba);
+    hit_color(l->hit, of_vertices);
     for (int i = 0; i < 4; ++i)
-        rgba[i] *= m->base_color[i] * l->hit->color[i];
+        rgba[i] *= m->base_color[i] * of_vertices[i];
 }
 
 static void look_up_glint(const lookup *l, const scene_glint *g, float *factor, float *density, float color[3])

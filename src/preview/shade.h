@@ -41,8 +41,9 @@ void shader_close(shader *s);
 typedef void shade_preparer(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice,
                             shade_point *out);
 
-/* wo: world, unit, to the viewer. choice: uniform in [0, 1), see place_footprint. */
+/* wo: world, unit, to the viewer. choice: uniform in [0, 1), see place_footprint; read where shade_wants_choice. */
 shade_preparer shade_prepare;
+bool shade_wants_choice(const shader *s, const hit *h);
 
 /* Makes every layer as rough as it looks to a ray that stands for a whole cone: what a wide bounce sees of a highlight
  * is its mean, and no spark. slope_variance: of the half vector over the cone. With more samples the cones shrink, and

@@ -2,6 +2,7 @@
  * up at a hit, and all that it needs is known before the first ray. */
 #include <stdlib.h>
 
+#include "preview/place.h"
 #include "preview/shade_parts.h"
 #include "scene/surface.h"
 
@@ -9,6 +10,7 @@ struct shade_constant {
     shade_preparer *prepare;
     glint_surface surface;
     float emission[3], albedo[3], opacity;
+    bool wants_choice; /* facets on the planes of the object's axes: one of them is chosen at random */
 };
 
 static bool has_textures(const scene_material *m)
@@ -29,6 +31,23 @@ static bool has_vertex_colors(const scene *s, int material)
         if (s->meshes[i].material == material && s->meshes[i].color != NULL)
             return true;
     return false;
+}
+
+static bool is_on_planes(const scene *s, int material, const scene_glint *g)
+{
+    if (g == NULL)
+        return false;
+    for (int i = 0; i < s->mesh_count; ++i)
+        if (s->meshes[i].material == material && !place_is_in_texture_space(g, &s->meshes[i]))
+            return true;
+    return false;
+}
+
+static bool has_planes(const scene *s, int material)
+{
+    const scene_material *const m = &s->materials[material];
+    return is_on_planes(s, material, scene_layer_glint(m, SCENE_LAYER_BASE)) ||
+           is_on_planes(s, material, scene_layer_glint(m, SCENE_LAYER_CLEARCOAT));
 }
 
 static bool is_plain(const scene *s, int material)
@@ -61,6 +80,7 @@ bool shader_open(shader *s, report *r)
         made[i].prepare = shade_prepare_any;
         if (is_plain(s->scene, i))
             made[i] = constant_of(&s->scene->materials[i]);
+        made[i].wants_choice = has_planes(s->scene, i);
     }
     s->constants = made;
     return true;
@@ -70,6 +90,11 @@ void shader_close(shader *s)
 {
     free(s->constants);
     s->constants = NULL;
+}
+
+bool shade_wants_choice(const shader *s, const hit *h)
+{
+    return s->constants[h->mesh->material].wants_choice;
 }
 
 void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)

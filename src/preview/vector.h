@@ -72,9 +72,22 @@ static inline vec3 v3_reject(vec3 a, vec3 n)
     return v3_mad(a, n, -v3_dot(a, n));
 }
 
+/* Of two numbers; b where a is none. In two instructions, and not in a call as fmax, which looks for NaNs on both
+ * sides.
+ */
+static inline double larger_of(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double smaller_of(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 static inline double v3_max_abs(vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    return larger_of(fabs(a.x), larger_of(fabs(a.y), fabs(a.z)));
 }
 
 static inline vec3 m4_point(const double m[16], vec3 p)

@@ -57,6 +57,7 @@ static void judge(study_run *run, const char *name, double *error, int count)
 static void measure_all(study_run *run, int count, double *error[2], double from, double to)
 {
     int used[2] = { 0, 0 };
+    double fast[2] = { 0.0, 0.0 }, exact[2] = { 0.0, 0.0 };
     uint64_t random = 41;
     study_table(run, "lights_error.csv",
                 "distribution,roughness,view_deg,solid_angle_sr,radiance,radiance_error,p,p_error");
@@ -70,13 +71,19 @@ static void measure_all(study_run *run, int count, double *error[2], double from
         const double radiance = (double)l.fast.smooth[0] / (double)l.exact.smooth[0] - 1.0;
         const double p = (double)l.fast.lit_probability / (double)l.exact.lit_probability - 1.0;
         error[k][used[k]++] = fabs(radiance);
+        fast[k] += (double)l.fast.smooth[0];
+        exact[k] += (double)l.exact.smooth[0];
         study_row(run, "%s,%.4f,%.2f,%.5g,%.6g,%.3e,%.6g,%.3e", k ? "Beckmann" : "GGX", c.roughness,
                   c.view * 180.0 / AREA_PI, (double)c.light.solid_angle_sr, (double)l.exact.smooth[0], radiance,
                   (double)l.exact.lit_probability, p);
     }
     study_end_table(run);
-    judge(run, "GGX", error[0], used[0]);
-    judge(run, "Beckmann", error[1], used[1]);
+    for (int k = 0; k < 2; k++) {
+        const char *const name = k ? "Beckmann" : "GGX";
+        judge(run, name, error[k], used[k]);
+        if (exact[k] > 0.0)
+            study_note(run, "%s, the light of all lights: %+.4f", name, fast[k] / exact[k] - 1.0);
+    }
 }
 
 void lights_measure_errors(study_run *run, double from, double to)

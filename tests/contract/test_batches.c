@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "area_cases.h"
+
 enum { BATCH = 1000 };
 
 typedef struct batch_arrays {
@@ -136,12 +138,63 @@ static void threads_may_share_a_material(void **state)
     contract_kept(13, "Threads may share a material, and get the same bits", "batches", NULL);
 }
 
+/* ---- lights of real size ---- */
+
+enum { LIGHTS = 64 };
+
+typedef struct light_job {
+    const glint_material *material;
+    const area_case *cases;
+    int from; /* where to begin: threads meet at different lights */
+    glint_value values[LIGHTS];
+} light_job;
+
+static void *light_up(void *argument)
+{
+    light_job *j = argument;
+    for (int k = 0; k < LIGHTS; k++) {
+        const int i = (j->from + k) % LIGHTS;
+        const glint_footprint f = { 1e-2 * i, 1e-2, 3e-4F, 1e-4F, 0.0F, 3e-4F, (uint32_t)i };
+        glint_eval_area(j->material, NULL, &f, j->cases[i].wo, &j->cases[i].light, &j->values[i]);
+    }
+    return NULL;
+}
+
+/* Dictionary and example draw points of the light by hashes, which must belong to the query and not to a thread. */
+static void lights_of_real_size_are_the_same_on_every_thread(void **state)
+{
+    (void)state;
+    static area_case cases[LIGHTS];
+    static light_job jobs[3];
+    uint64_t random = 8;
+    for (int i = 0; i < LIGHTS; i++)
+        cases[i] = area_case_of(&random, 0);
+    FOR_EACH_CONFIGURATION(c, m, row)
+    {
+        pthread_t thread[2];
+        memset(jobs, 0, sizeof(jobs));
+        for (int i = 0; i < 3; i++) {
+            jobs[i].material = m;
+            jobs[i].cases = cases;
+            jobs[i].from = i * LIGHTS / 3;
+        }
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(pthread_create(&thread[i], NULL, light_up, &jobs[i]), 0);
+        for (int i = 0; i < 2; i++)
+            pthread_join(thread[i], NULL);
+        light_up(&jobs[2]);
+        for (int i = 0; i < 2; i++)
+            assert_memory_equal(jobs[i].values, jobs[2].values, sizeof(jobs[2].values));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(batch_gives_the_bits_of_single_calls),
         cmocka_unit_test(batch_with_a_missing_array_is_refused),
         cmocka_unit_test(threads_may_share_a_material),
+        cmocka_unit_test(lights_of_real_size_are_the_same_on_every_thread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

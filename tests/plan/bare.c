@@ -10,14 +10,12 @@
 #include "scene/surface.h"
 
 /* As in src/preview/integrator.c: the same samples make the same pixels. */
-enum { DIM_PIXEL = 0, DIM_PLACE = 1, DIM_LIGHTS = 5, DIM_DRAW = (1 << 20) - 3 };
+enum { DIM_PIXEL = 0, DIM_LIGHTS = 5, DIM_DRAW = (1 << 20) - 3 };
 
 static void look(const world *w, const sampler *random, vertex *v)
 {
-    double choice[2];
     float density_scale;
     const scene *const s = w->shader.scene;
-    sampler_pair(random, DIM_PLACE, choice);
     hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
     v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     const int material = v->hit.mesh->material;
@@ -29,8 +27,7 @@ static void look(const world *w, const sampler *random, vertex *v)
     layer->surface = scene_base_surface(&s->materials[material], &t);
     shade_set_frame(layer, v->hit.normal, v->hit.tangent, v3_scale(v->ray.direction, -1.0));
     if (layer->counts) {
-        layer->footprint =
-            place_footprint(&s->materials[material].glint, &v->hit, &v->hit_step, (float)choice[0], &density_scale);
+        layer->footprint = place_footprint(&s->materials[material].glint, &v->hit, &v->hit_step, 0.0F, &density_scale);
         layer->surface.facets_per_m2 *= density_scale;
         layer->footprint.draw = hash_combine(sampler_bits(random, DIM_DRAW), 0U);
     }
