@@ -4,10 +4,16 @@
 
 #include "preview/caller_scene.h"
 
+/* How its materials are evaluated. */
+typedef struct caller_shading {
+    int model;
+    glint_area_light_method area_lights;
+} caller_shading;
+
 struct glint_preview_scene {
     caller_scene from;
     preview_stage *stage;
-    int model;
+    caller_shading shading;
 };
 
 glint_preview_result answer(glint_preview_result result, const char *text, char *message, size_t message_size);

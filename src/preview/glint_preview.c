@@ -37,12 +37,16 @@ size_t glint_preview_size_of(const char *name)
     return 0;
 }
 
-static preview_options stage_options(const glint_preview_scene *s, int model)
+static caller_shading shading_of(const glint_preview_scene_options *o)
+{
+    return (caller_shading){ o->model, o->exact_lights != 0 ? GLINT_AREA_LIGHT_EXACT : GLINT_AREA_LIGHT_FAST };
+}
+
+static preview_options stage_options(const glint_preview_scene *s, caller_shading shading)
 {
     preview_options o = PREVIEW_OPTIONS_INIT;
-    o.model = model;
-    /* A viewport has no plan. The fit is off by a hundredth, and the first picture is there in a third of the time. */
-    o.area_lights = GLINT_AREA_LIGHT_FAST;
+    o.model = shading.model;
+    o.area_lights = shading.area_lights;
     o.sky = &s->from.world.sky;
     if (s->from.world.map.rgb != NULL)
         o.environment = &s->from.world.environment;
@@ -53,9 +57,9 @@ static bool make_scene(glint_preview_scene *s, const glint_preview_scene_options
 {
     if (!caller_scene_make(o, &s->from, r))
         return false;
-    s->model = o->model;
+    s->shading = shading_of(o);
     s->from.warnings.now = CALLER_LOOK;
-    const preview_options stage = stage_options(s, s->model);
+    const preview_options stage = stage_options(s, s->shading);
     return preview_stage_open(&s->from.scene, &stage, &s->stage, r);
 }
 
@@ -96,19 +100,19 @@ static void move_warnings(caller_warnings *to, caller_warnings *from, int parts)
 }
 
 /* The stage sees the scene with its new parts; what they replaced is in parked, until it is clear who stays. */
-static bool change_stage(glint_preview_scene *s, caller_scene *parked, int parts, int model, report *r)
+static bool change_stage(glint_preview_scene *s, caller_scene *parked, int parts, caller_shading shading, report *r)
 {
     caller_scene_swap(&s->from, parked, parts);
     const preview_change change = { .before = (parts & GLINT_PREVIEW_MATERIALS) != 0 ? parked->scene.materials : NULL,
                                     .images = (parts & GLINT_PREVIEW_IMAGES) != 0,
                                     .environment = (parts & GLINT_PREVIEW_WORLD) != 0 };
-    const preview_options stage = stage_options(s, model);
+    const preview_options stage = stage_options(s, shading);
     parked->warnings.now = CALLER_LOOK;
     if (!preview_stage_change(s->stage, &change, &stage, r)) {
         caller_scene_swap(&s->from, parked, parts);
         return false;
     }
-    s->model = model;
+    s->shading = shading;
     move_warnings(&s->from.warnings, &parked->warnings, parts);
     return true;
 }
@@ -117,12 +121,12 @@ static glint_preview_result change_scene(glint_preview_scene *s, const glint_pre
                                          caller_scene *next, char *message, size_t message_size)
 {
     report r = { .warn = caller_warnings_keep, .user = &next->warnings };
-    const int model = (parts & GLINT_PREVIEW_MATERIALS) != 0 ? o->model : s->model;
+    const caller_shading shading = (parts & GLINT_PREVIEW_MATERIALS) != 0 ? shading_of(o) : s->shading;
     if (!caller_scene_make_parts(o, parts, &s->from.scene, next, &r))
         return answer_of(false, &r, message, message_size);
     if ((parts & GLINT_PREVIEW_MATERIALS) != 0 && !caller_scene_same_meshes(&s->from.scene, &next->scene))
         return answer(GLINT_PREVIEW_OTHER_MESHES, "the materials ask for other meshes", message, message_size);
-    return answer_of(change_stage(s, next, parts, model, &r), &r, message, message_size);
+    return answer_of(change_stage(s, next, parts, shading, &r), &r, message, message_size);
 }
 
 glint_preview_result glint_preview_scene_change(glint_preview_scene *s, int32_t parts,

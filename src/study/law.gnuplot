@@ -9,4 +9,4 @@ plot [0.08:1.2e4] [-0.1:2.6] 1 with lines linetype 7 linewidth 1 notitle, \
     of('as printed') using ($2*$3):4 with points linetype 2 title 'gated Gaussian as printed', \
     of('cut at 0') using ($2*$3):4 with points linetype 5 title 'cut at 0 (Deliot, Belcour 2023)', \
     of('cut to [1') using ($2*$3):4 with points linetype 4 title 'cut to [1, N] (Kneiphof, Klein 2024)', \
-    of('walking to 8') using ($2*$3):4 with points linetype 1 pointsize 1 title 'libglint'
+    of('walking to 5') using ($2*$3):4 with points linetype 1 pointsize 1 title 'libglint'

@@ -31,5 +31,7 @@ void race_write(FILE *json, const char *title, const racer *racers, size_t count
 
 /* Seconds of this thread's own time on a processor. */
 double race_now(void);
+/* Of all threads of this process. */
+double race_now_all(void);
 
 #endif

@@ -124,11 +124,12 @@ def render(name="picture"):
     return read(path)
 
 
-def render_with_cycles(name="cycles", samples=64, bounces=0):
-    """The same by Cycles, with what makes it a truth: see docs/blender.md. Materials are diffuse from now on."""
+def render_with_cycles(name="cycles", samples=64, bounces=0, node="ShaderNodeBsdfDiffuse"):
+    """The same by Cycles, with what makes it a truth: see docs/blender.md. Materials have this one node from now on, with the colour
+    and the roughness that they had."""
     scene = bpy.context.scene
     before = scene.render.engine
-    make_lambertian()
+    make_single(node)
     scene.render.engine = "CYCLES"
     settings = scene.cycles
     settings.samples, settings.use_adaptive_sampling, settings.use_denoising = samples, False, False
@@ -141,14 +142,18 @@ def render_with_cycles(name="cycles", samples=64, bounces=0):
         scene.render.engine = before
 
 
-def make_lambertian():
-    """Puts a Diffuse BSDF of the same colour in the place of every Principled BSDF, whose diffuse part is Burley's in Cycles."""
+def make_single(kind):
+    """Puts a single lobe in the place of every Principled BSDF: the diffuse part of that is Burley's in Cycles."""
     for material in bpy.data.materials:
         tree = material.node_tree
-        node, old = tree.nodes.new("ShaderNodeBsdfDiffuse"), tree.nodes["Principled BSDF"].inputs["Base Color"]
-        node.inputs["Color"].default_value = old.default_value
-        if old.is_linked:
-            tree.links.new(old.links[0].from_socket, node.inputs["Color"])
+        node, old = tree.nodes.new(kind), tree.nodes["Principled BSDF"].inputs
+        if kind == "ShaderNodeBsdfGlossy":
+            node.distribution = "GGX"
+            node.inputs["Roughness"].default_value = old["Roughness"].default_value
+        color = old["Base Color"]
+        node.inputs["Color"].default_value = color.default_value
+        if color.is_linked:
+            tree.links.new(color.links[0].from_socket, node.inputs["Color"])
         tree.links.new(node.outputs["BSDF"], tree.nodes["Material Output"].inputs["Surface"])
 
 

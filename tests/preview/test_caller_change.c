@@ -3,6 +3,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +23,15 @@ static void show(const glint_preview_scene *s, float rgba[VALUES])
     refine(p, 4);
     get(p, GLINT_PREVIEW_COMBINED, rgba, VALUES);
     glint_preview_picture_destroy(p);
+}
+
+static bool same(const float a[VALUES], const float b[VALUES])
+{
+    for (int i = 0; i < VALUES; ++i) {
+        if (a[i] != b[i])
+            return false;
+    }
+    return true;
 }
 
 /* What a caller begins with, and what it wants next: a square of two materials, one of them with a picture, under a sun
@@ -50,7 +60,7 @@ static void make_looks(looks *l)
     l->image.width = 2;
     l->image.height = 1;
     make_square(&l->square);
-    l->square.sun.angular_diameter_rad = 0.3F; /* lights flakes in numbers */
+    l->square.sun.angular_diameter_rad = 0.3F; /* lights flakes in numbers, and has a shape */
     l->square.mesh.materials = l->materials;
     l->square.options.images = &l->image;
     l->square.options.image_count = 1;
@@ -87,6 +97,11 @@ static void use_the_picture_otherwise(looks *l)
 static void change_model(looks *l)
 {
     l->square.options.model = 0; /* smooth */
+}
+
+static void integrate_over_lights(looks *l)
+{
+    l->square.options.exact_lights = 1;
 }
 
 static void change_picture(looks *l)
@@ -139,6 +154,7 @@ static const struct {
                 { glow, MATERIALS },
                 { use_the_picture_otherwise, MATERIALS },
                 { change_model, MATERIALS },
+                { integrate_over_lights, MATERIALS },
                 { change_picture, IMAGES },
                 { change_lights, LIGHTS },
                 { switch_lights_off, LIGHTS },
@@ -170,9 +186,8 @@ static void a_changed_scene_is_the_one_that_would_be_made_anew(void **state)
         show(s, after);
         glint_preview_scene *const fresh = create(&l.square.options);
         show(fresh, anew);
-        if (memcmp(after, anew, sizeof anew) != 0 || memcmp(after, before, sizeof before) == 0)
-            fail_msg("change %zu: found %s", i,
-                     memcmp(after, before, sizeof before) == 0 ? "the old picture" : "another picture than anew");
+        if (!same(after, anew) || same(after, before))
+            fail_msg("change %zu: found %s", i, same(after, before) ? "the old picture" : "another picture than anew");
         assert_string_equal(glint_preview_scene_warnings(s), glint_preview_scene_warnings(fresh));
         glint_preview_scene_destroy(fresh);
         glint_preview_scene_destroy(s);
@@ -194,7 +209,7 @@ static void a_scene_that_changes_to_and_fro_is_what_it_was(void **state)
         change(s, IMAGES | LIGHTS | WORLD, &l.square.options);
     }
     show(s, last);
-    assert_memory_equal(first, last, sizeof first);
+    assert_true(same(first, last));
     glint_preview_scene_destroy(s);
 }
 
@@ -247,7 +262,7 @@ static void what_needs_other_meshes_is_said_and_nothing_changes(void **state)
         assert_int_equal(glint_preview_scene_change(s, MATERIALS, &l.square.options, NULL, 0),
                          GLINT_PREVIEW_OTHER_MESHES);
         show(s, after);
-        assert_memory_equal(before, after, sizeof before);
+        assert_true(same(before, after));
     }
     glint_preview_scene_destroy(s);
 }
@@ -291,7 +306,7 @@ static void what_makes_no_sense_is_named_and_nothing_changes(void **state)
     bad.square.options.world.map_rotation[0] = NAN;
     refuse_change(s, IMAGES | LIGHTS | WORLD, &bad.square.options, "map_rotation");
     show(s, after);
-    assert_memory_equal(before, after, sizeof before);
+    assert_true(same(before, after));
     glint_preview_scene_destroy(s);
 }
 

@@ -1,8 +1,9 @@
 #!/bin/bash
-# Plots the tables that the study program $1 left in the folder $2: every figure as SVG and as PNG, beside the tables.
+# Plots the tables that the program $1 left in the folder $2: every figure as SVG and as PNG, beside the tables. Its scripts are
+# here, or in the folder $3 beside this one.
 set -euo pipefail
 folder=$(realpath "$2")
-cd "$(dirname "${BASH_SOURCE[0]}")"
+cd "$(dirname "${BASH_SOURCE[0]}")/${3:-.}"
 for script in "$1".gnuplot "$1"_*.gnuplot; do
     [ -f "$script" ] || continue
     figure=$folder/${script%.gnuplot}

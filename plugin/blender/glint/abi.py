@@ -143,6 +143,7 @@ class SceneOptions(ctypes.Structure):
         ("light_count", ctypes.c_size_t),
         ("world", World),
         ("model", ctypes.c_int32),
+        ("exact_lights", ctypes.c_int32),
     ]
 
     def __init__(self, **values):

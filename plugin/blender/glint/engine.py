@@ -8,9 +8,9 @@ import gpu
 import numpy
 from gpu_extras.presets import draw_texture_2d
 
-from . import abi, compat, render_settings, scene_camera
+from . import abi, compat, scene_camera
 from .library import GlintError, Picture, Scene
-from .render_settings import ENGINE, MODELS, passes_of, threads_of
+from .render_settings import ENGINE, passes_of, shading_of, threads_of
 from .scene_data import Cache, describe
 from .viewport import Session, View
 
@@ -18,6 +18,9 @@ from .viewport import Session, View
 LOOK_EVERY_S = 0.05
 # Samples of the spheres that show a material.
 PREVIEW_SAMPLES = 16
+# Types of objects without a surface, and data besides meshes that has one.
+WITHOUT_SURFACE = {"LIGHT", "CAMERA", "EMPTY", "LIGHT_PROBE", "SPEAKER", "ARMATURE", "LATTICE"}
+WITH_SURFACE = (bpy.types.Curve, bpy.types.MetaBall)
 # What Blender shows as infinitely far.
 FAR = 1e10
 
@@ -30,6 +33,14 @@ def _depth(values, scale):
 def _z_up(vectors):
     """Rows x y z with y up as rows with z up."""
     return numpy.stack((vectors[:, 0], -vectors[:, 2], vectors[:, 1]), axis=1)
+
+
+def _changes_meshes(update):
+    """Whether arrays of meshes may be others now. Blender calls a change of materials, nodes and lights one of geometry, too."""
+    source = update.id
+    if isinstance(source, bpy.types.Object):
+        return update.is_updated_geometry and source.type not in WITHOUT_SURFACE
+    return isinstance(source, bpy.types.Mesh) or (update.is_updated_geometry and isinstance(source, WITH_SURFACE))
 
 
 class GlintRenderEngine(bpy.types.RenderEngine):
@@ -64,7 +75,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
 
     def update(self, data, depsgraph):
         """Blender's data may be read here; render() only works with what came of it."""
-        self.description = describe(depsgraph, model=MODELS[depsgraph.scene.glint.model])
+        self.description = describe(depsgraph, **shading_of(depsgraph.scene, depsgraph.scene.glint.accuracy))
         self.camera = scene_camera.of_render(depsgraph, self.description.warnings.append)
 
     def render(self, depsgraph):
@@ -163,13 +174,14 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             self.session, self.cache = Session(self._ask_for_redraw), Cache()
         self._forget(depsgraph)
         try:
-            self.session.show_scene(describe(depsgraph, self.cache, MODELS[depsgraph.scene.glint.model]))
+            shading = shading_of(depsgraph.scene, depsgraph.scene.glint.preview_accuracy)
+            self.session.show_scene(describe(depsgraph, self.cache, **shading))
         except GlintError as problem:
             self.session.problem = str(problem)
 
     def _forget(self, depsgraph):
         for update in depsgraph.updates:
-            if update.is_updated_geometry or isinstance(update.id, bpy.types.Mesh):
+            if _changes_meshes(update):
                 self.cache.forget_geometry()
             if isinstance(update.id, bpy.types.Image):
                 self.cache.forget_images()

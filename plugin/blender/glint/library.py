@@ -90,6 +90,7 @@ def _options(description, with_meshes):
         images=images, image_count=len(description.images), materials=_text(description.materials),
         lights=abi.array_of(abi.Light, description.lights), light_count=len(description.lights),
         world=_world(description.world), model=description.model,
+        exact_lights=int(description.exact_lights),
     )
     if with_meshes:
         options.meshes, options.mesh_count = meshes, len(description.meshes)

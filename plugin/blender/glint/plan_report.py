@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerPr
 from . import library, scene_camera
 from .library import GlintError, Scene
 from .render_panels import Panel
-from .render_settings import ENGINE, MODELS, threads_of
+from .render_settings import ENGINE, shading_of, threads_of
 from .scene_data import describe
 
 
@@ -79,7 +79,7 @@ def plan_of(depsgraph):
     camera = scene_camera.of_render(depsgraph, lambda text: None)
     if camera is None:
         raise GlintError("The scene has no camera")
-    scene = Scene(describe(depsgraph, model=MODELS[settings.model]))
+    scene = Scene(describe(depsgraph, **shading_of(source, settings.accuracy)))
     try:
         width, height = scene_camera.resolution(source)
         return library.plan(scene, camera, width, height, samples=settings.samples, bounces=settings.bounces,

@@ -88,6 +88,11 @@ def threads_of(scene):
     return scene.render.threads if scene.render.threads_mode == "FIXED" else 0
 
 
+def shading_of(scene, accuracy):
+    """How materials are evaluated: with nothing left out where the accuracy is 0."""
+    return {"model": MODELS[scene.glint.model], "exact_lights": not accuracy > 0.0}
+
+
 PROPERTIES = (GlintRenderSettings, GlintLayerSettings)
 
 

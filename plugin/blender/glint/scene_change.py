@@ -44,7 +44,7 @@ def changed_parts(before, after):
     parts = NOTHING
     if not _same_images(before.images, after.images):
         parts |= abi.MATERIALS | abi.IMAGES
-    if (before.materials, before.model) != (after.materials, after.model):
+    if any(getattr(before, name) != getattr(after, name) for name in ("materials", "model", "exact_lights")):
         parts |= abi.MATERIALS
     if not _same_lights(before.lights, after.lights):
         parts |= abi.LIGHTS

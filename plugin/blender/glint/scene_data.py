@@ -45,6 +45,7 @@ class Description:
     images: list
     warnings: list
     model: int = -1  # of the library, for every material; -1: for each the one that shows what it asks for
+    exact_lights: bool = False  # of pictures of accuracy 0; otherwise a fit
 
 
 class Cache:
@@ -224,11 +225,9 @@ class Builder:
         )
 
 
-def describe(depsgraph, cache=None, model=-1):
-    """The scene of a depsgraph."""
-    made = Builder(depsgraph, cache or Cache()).description()
-    made.model = model
-    return made
+def describe(depsgraph, cache=None, **shading):
+    """The scene of a depsgraph. shading: model and exact_lights of the description."""
+    return dataclasses.replace(Builder(depsgraph, cache or Cache()).description(), **shading)
 
 
 # ---- lights ----

@@ -6,11 +6,11 @@ is.
 """
 
 import json
-from types import SimpleNamespace
 
-from . import extension, principled, textures
-from .scene_images import Image, packed, pixels_of, texture_image
+from . import extension, principled
+from .scene_images import Image, packed, pixels_of
 from .scene_nodes import Source, origin, source_of
+from .scene_textures import Textures, channel_of
 
 WRAP = {"REPEAT": 10497, "EXTEND": 33071, "CLIP": 33071, "MIRROR": 33648}
 NEAREST = 9728
@@ -89,8 +89,8 @@ class _Reader:
 
     def __init__(self, all_materials, material, uv_names, active_uv):
         self.all, self.material = all_materials, material
-        self.uv_names, self.active_uv = uv_names, active_uv
         self.node = principled.find(material) if material is not None else None
+        self.textures = Textures(all_materials, material, uv_names, active_uv, self.warn)
         self.out = {"doubleSided": True}
         self.extensions = {}
 
@@ -124,24 +124,11 @@ class _Reader:
         return self.out
 
     def read_glints(self):
-        own, coat = extension.of_material(self.material.glint, self.glint_texture)
+        own, coat = extension.of_material(self.material.glint, self.textures.of_flakes)
         if own is not None:
             self.extensions[extension.NAME] = own
         if coat is not None:
             self.extensions.setdefault(extension.COAT, {"clearcoatFactor": 0.0})["extensions"] = {extension.NAME: coat}
-
-    def glint_texture(self, texture):
-        """The textureInfo of a texture of the flakes, or None."""
-        if texture is None or texture.image is None:
-            return None
-        glint, image = self.material.glint, texture.image
-        as_color = texture in (glint.color_texture, glint.coat.color_texture)
-        number = self.all.image((image.name, as_color), lambda: texture_image(image, as_color))
-        if number is None:
-            self.warn(f"the image \"{image.name}\" has no pixels")
-            return None
-        repeated = SimpleNamespace(extension="REPEAT", interpolation="Closest" if texture.closest else "Linear")
-        return textures.info_of(texture, self.all.texture(number, repeated))
 
     def read_display(self):
         """Without a Principled BSDF: what the viewport shows."""
@@ -153,66 +140,13 @@ class _Reader:
             "roughnessFactor": m.roughness,
         }
 
-    # ---- textures ----
-
-    def texcoord_of(self, node):
-        """Set and KHR_texture_transform of an image texture, from its Mapping and UV Map nodes."""
-        chosen, transform = self.active_uv, None
-        output = origin(node.inputs["Vector"])
-        if output is not None and output.node.type == "MAPPING":
-            transform = _transform(output.node)
-            output = origin(output.node.inputs["Vector"])
-        if output is not None and output.node.type == "UVMAP" and output.node.uv_map:
-            if output.node.uv_map in self.uv_names:
-                chosen = self.uv_names.index(output.node.uv_map)
-            else:
-                self.warn(f"the UV map \"{output.node.uv_map}\" is not among the first two of a mesh")
-        elif output is not None and (output.node.type != "TEX_COORD" or output.name != "UV"):
-            self.warn(f"textures lie along UV maps only; \"{output.node.name}\" is not read")
-        return chosen, transform
-
-    def info(self, image_number, node, **more):
-        """A textureInfo; None where the image has no pixels."""
-        if image_number is None:
-            self.warn(f"the image \"{node.image.name}\" has no pixels")
-            return None
-        texcoord, transform = self.texcoord_of(node)
-        info = {"index": self.all.texture(image_number, node), **more}
-        if texcoord:
-            info["texCoord"] = texcoord
-        if transform is not None:
-            info["extensions"] = {"KHR_texture_transform": transform}
-        return info
-
-    def texture(self, node, as_color, **more):
-        image = node.image
-        number = self.all.image((image.name, as_color), lambda: texture_image(image, as_color))
-        return self.info(number, node, **more)
-
-    def single_channel(self, source, place):
-        """A texture whose channel place ("R", "G", "B") is that of a source."""
-        if source.channel == place:
-            return self.texture(source.node, False)
-        image, channel = source.node.image, source.channel
-        planes = {"R": (0,), "G": (1,), "B": (2,)}[place]
-
-        def make():
-            pixels = pixels_of(image)
-            if pixels is None:
-                return None
-            out = pixels.copy()
-            out[..., planes[0]] = channel_of(pixels, channel)
-            return Image(image.name, pixels=out.clip(0.0, 1.0))
-
-        return self.info(self.all.image((image.name, channel, place), make), source.node)
-
     # ---- the parts of a material ----
 
     def read_base(self):
         color, alpha = self.source("color"), self.source("alpha")
         base = {"baseColorFactor": [*_clip(color.factor), _clip(alpha.factor)]}
         if color.node is not None:
-            _put(base, "baseColorTexture", self.texture(color.node, True))
+            _put(base, "baseColorTexture", self.textures.of_node(color.node, True))
         if alpha.node is not None and (color.node is None or alpha.node.image != color.node.image):
             self.warn("alpha from another image than the base colour's is not read")
         elif alpha.node is not None or alpha.factor < 1.0:
@@ -235,7 +169,7 @@ class _Reader:
         fits = (roughness.node is None or roughness.channel == "G") and (metallic.node is None or metallic.channel == "B")
         together = roughness.node is not None and metallic.node is not None and roughness.node.image == metallic.node.image
         if fits and together:
-            _put(base, "metallicRoughnessTexture", self.texture(node, False))
+            _put(base, "metallicRoughnessTexture", self.textures.of_node(node, False))
             return
         names = tuple((s.node.image.name, s.channel) if s.node is not None else None for s in (roughness, metallic))
 
@@ -244,7 +178,7 @@ class _Reader:
                      for s in (roughness, metallic)]
             return Image(node.image.name, pixels=packed(*parts).clip(0.0, 1.0)) if any(p is not None for p in parts) else None
 
-        _put(base, "metallicRoughnessTexture", self.info(self.all.image(names, make), node))
+        _put(base, "metallicRoughnessTexture", self.textures.info(self.all.image(names, make), node))
 
     def read_specular(self):
         specular = self.source("specular")
@@ -263,7 +197,7 @@ class _Reader:
         if scale > 1.0:
             self.extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": scale}
         if color.node is not None:
-            _put(self.out, "emissiveTexture", self.texture(color.node, True))
+            _put(self.out, "emissiveTexture", self.textures.of_node(color.node, True))
 
     def read_coat(self):
         coat, roughness = self.source("coat"), self.source("coat_roughness")
@@ -271,9 +205,9 @@ class _Reader:
             return
         made = {"clearcoatFactor": _clip(coat.factor), "clearcoatRoughnessFactor": _clip(roughness.factor)}
         if coat.node is not None:
-            _put(made, "clearcoatTexture", self.single_channel(coat, "R"))
+            _put(made, "clearcoatTexture", self.textures.of_channel(coat, "R"))
         if roughness.node is not None:
-            _put(made, "clearcoatRoughnessTexture", self.single_channel(roughness, "G"))
+            _put(made, "clearcoatRoughnessTexture", self.textures.of_channel(roughness, "G"))
         normal = self.normal_map(("Clearcoat Normal", "Coat Normal"))
         if normal is not None:
             made["clearcoatNormalTexture"] = normal
@@ -295,7 +229,7 @@ class _Reader:
         color = source_of(output.node.inputs["Color"], self.warn)
         if color.node is None:
             return None
-        return self.texture(color.node, False, scale=output.node.inputs["Strength"].default_value)
+        return self.textures.of_node(color.node, False, scale=output.node.inputs["Strength"].default_value)
 
     def warn_of_unrendered(self):
         for name in NOT_RENDERED:
@@ -307,24 +241,3 @@ class _Reader:
 def _put(into, name, info):
     if info is not None:
         into[name] = info
-
-
-def channel_of(pixels, channel):
-    """One channel of an image; "grey" is the luminance, as Cycles turns a colour into a number."""
-    if pixels is None:
-        return None
-    if channel == "grey":
-        return pixels[..., 0] * 0.2126 + pixels[..., 1] * 0.7152 + pixels[..., 2] * 0.0722
-    return pixels[..., "RGBA".index(channel)]
-
-
-def _transform(node):
-    """A Mapping node of the type Point as KHR_texture_transform, whose v runs downwards: as the glTF exporter has it."""
-    from math import cos, sin
-
-    offset, rotation, scale = (node.inputs[name].default_value for name in ("Location", "Rotation", "Scale"))
-    return {
-        "offset": [offset[0] - scale[1] * sin(rotation[2]), 1.0 - offset[1] - scale[1] * cos(rotation[2])],
-        "rotation": rotation[2],
-        "scale": [scale[0], scale[1]],
-    }
