@@ -361,11 +361,12 @@ float glint_pdf(const glint_material *material, const glint_surface *surface, co
 
 static int has_all(const glint_batch *b)
 {
-    const void *const arrays[] = { b->u,     b->v,     b->dudx,  b->dudy,   b->dvdx,   b->dvdy,
-                                   b->wo[0], b->wo[1], b->wo[2], b->rgb[0], b->rgb[1], b->rgb[2] };
+    const void *const arrays[] = { b->u, b->v, b->dudx, b->dudy, b->dvdx, b->dvdy, b->wo[0], b->wo[1], b->wo[2] };
     for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); i++)
         if (!arrays[i])
             return 0;
+    if (!b->values && !(b->rgb[0] && b->rgb[1] && b->rgb[2]))
+        return 0;
     return b->area_lights || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
 }
 
@@ -378,6 +379,15 @@ static int light_entry(checked *c, const glint_batch *b, size_t i)
     }
     const float wi[3] = { b->wi[0][i], b->wi[1][i], b->wi[2][i] };
     return light_up(c, wi, b->solid_angle_sr[i]);
+}
+
+static void put_entry(const glint_batch *b, size_t i, const glint_value *value)
+{
+    if (b->values)
+        b->values[i] = *value;
+    for (int k = 0; k < 3; k++)
+        if (b->rgb[k])
+            b->rgb[k][i] = value->rgb[k];
 }
 
 glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch)
@@ -404,10 +414,11 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
                                               batch->dvdy[i],
                                               batch->seed ? batch->seed[i] : 0U,
                                               batch->draw ? batch->draw[i] : 0U };
-            batch->rgb[0][i] = batch->rgb[1][i] = batch->rgb[2][i] = 0.0F;
             if (!begin(&c[j], material, batch->surfaces ? &batch->surfaces[i] : NULL, &footprint[j], wo) ||
-                !light_entry(&c[j], batch, i))
+                !light_entry(&c[j], batch, i)) {
+                put_entry(batch, i, &(glint_value){ 0 });
                 continue;
+            }
             query[lit] = c[j].query;
             index[lit++] = i;
         }
@@ -416,8 +427,7 @@ glint_result glint_eval_batch(const glint_material *material, const glint_batch 
         material->model->eval_many(query, lit, value);
         for (size_t j = 0; j < lit; j++) {
             make_finite(&value[j]);
-            for (int k = 0; k < 3; k++)
-                batch->rgb[k][index[j]] = value[j].rgb[k];
+            put_entry(batch, index[j], &value[j]);
         }
     }
     return GLINT_OK;

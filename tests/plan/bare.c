@@ -52,13 +52,12 @@ static void tile(const world *w, const double jitter[2], glint_footprint *f)
 static bool is_lit(const world *w, const vertex *v, const light *l, const light_view *view, const sampler *random,
                    uint32_t dimension)
 {
-    double u[2];
-    trace_ray ray = { .origin = hit_leave(&v->hit, v->hit.shadow_origin), .random = sampler_bits(random, dimension) };
+    static const double u[2] = { 0.0, 0.0 };
+    trace_ray ray = { .origin = hit_leave(&v->hit, v->hit.shadow_origin) };
     if (!(v->point.layers[0].wo[2] > 0.0F && v3_dot(view->wi, v->point.layers[0].z) > 0.0))
         return false;
     if (l->unshadowed)
         return true;
-    sampler_pair(random, dimension, u);
     light_pick(l, view, ray.origin, u, &ray.direction, &ray.far);
     return !trace_occluded(w->trace, &ray);
 }
@@ -108,7 +107,7 @@ void bare_render(const world *w, image *film)
             for (int i = 0; i < w->spp; ++i) {
                 pixel_sample sample;
                 sample_pixel(w, x, y, (uint32_t)i, &sample);
-                film_add(&pixel, &sample);
+                film_add(&pixel, &sample, false);
             }
             film_write(film, x, y, &pixel);
         }
