@@ -175,43 +175,88 @@ static inline vfloat grid_fraction(vdouble x, vuint *integer)
     return min_f(max_f(narrow(subtract_d(x, subtract_d(shifted, shift))), splat(0.0F)), splat(1.0F));
 }
 
-/* The triangle of one grid's lattice around (u, v): three cells and barycentric weights. */
-static inline void grid_cells(const grid_vertex *g, vdouble u, vdouble v, vuint seed, vuint cell[GRID_CELLS],
-                              vfloat weight[GRID_CELLS])
+/* From metres to coordinates in the lattice of one grid: x = xu u + xv v + x0, y = yv v - yu u + y0. */
+typedef struct grid_map {
+    vfloat xu, xv, x0, yu, yv, y0;
+} grid_map;
+
+/* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the same
+ * numbers, so their rounding does not matter. */
+static inline grid_map grid_map_of(const grid_vertex *g, vfloat sine, vfloat cosine, vuint grid)
 {
-    vfloat sine, cosine;
-    sincos_pi(g->direction * exp2_i(-g->ratio), &sine, &cosine);
     /* 2^(-level / 2) */
     const vfloat across =
         exp2_i(-(g->level >> 1)) * choose(equal_i(g->level & 1, splat_i(1)), splat(0.70710678F), splat(1.0F));
     const vfloat along = across * exp2_i(-g->ratio);
-    const vuint grid =
-        hash_full(seed + (vuint)to_int(g->direction) * HASH_X + (vuint)g->ratio * HASH_Y + (vuint)g->level * HASH_Z);
+    const vfloat skew = across * 0.577350269F, tall = across * 1.15470054F;
     /* Each grid starts somewhere else: else all would have a vertex at the origin, and the blend would be sharper
      * there. */
-    const vfloat start_x = to_float((vint)(grid & 0xffffU)) * (1.0F / 65536.0F);
-    const vfloat start_y = to_float((vint)(grid >> 16)) * (1.0F / 65536.0F);
-    /* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the
-     * same four numbers, so their rounding does not matter; the position itself is kept in double. */
-    const vfloat skew = across * 0.577350269F, tall = across * 1.15470054F;
-    const vdouble sx = add_d(
-        add_d(multiply_d(u, widen(cosine * along + sine * skew)), multiply_d(v, widen(sine * along - cosine * skew))),
-        widen(start_x));
-    const vdouble sy =
-        add_d(subtract_d(multiply_d(v, widen(cosine * tall)), multiply_d(u, widen(sine * tall))), widen(start_y));
+    const vfloat x0 = to_float((vint)(grid & 0xffffU)) * (1.0F / 65536.0F);
+    const vfloat y0 = to_float((vint)(grid >> 16)) * (1.0F / 65536.0F);
+    return (grid_map){ cosine * along + sine * skew, sine * along - cosine * skew, x0, sine * tall, cosine * tall, y0 };
+}
+
+/* Integer coordinates, and what is left of each in [0, 1]. Where cells have no numbers any more the weights of the
+ * blend still add up to one. */
+typedef struct grid_place {
     vuint x, y;
-    /* Where cells have no numbers any more the weights of the blend still add up to one. */
-    const vfloat fx = grid_fraction(sx, &x), fy = grid_fraction(sy, &y);
-    const vfloat sum = fx + fy;
+    vfloat fx, fy;
+} grid_place;
+
+static inline grid_place grid_place_of(const grid_map *m, vdouble u, vdouble v)
+{
+    const vdouble x = add_d(add_d(multiply_d(u, widen(m->xu)), multiply_d(v, widen(m->xv))), widen(m->x0));
+    const vdouble y = add_d(subtract_d(multiply_d(v, widen(m->yv)), multiply_d(u, widen(m->yu))), widen(m->y0));
+    grid_place p;
+    p.fx = grid_fraction(x, &p.x);
+    p.fy = grid_fraction(y, &p.y);
+    return p;
+}
+
+/* The triangle around a place: three cells, not yet hashed, and barycentric weights. */
+static inline void grid_surround(const grid_place *p, vuint grid, vuint cell[GRID_CELLS], vfloat weight[GRID_CELLS])
+{
+    const vfloat sum = p->fx + p->fy;
     const vmask upper = less_equal(splat(1.0F), sum);
     weight[0] = abs_f(1.0F - sum);
-    weight[1] = choose(upper, 1.0F - fy, fx);
-    weight[2] = choose(upper, 1.0F - fx, fy);
+    weight[1] = choose(upper, 1.0F - p->fy, p->fx);
+    weight[2] = choose(upper, 1.0F - p->fx, p->fy);
+    const vuint origin = p->x * HASH_Z + p->y * HASH_Y + grid;
+    cell[0] = origin + ((vuint)mask_bits(upper) & (HASH_Z + HASH_Y));
+    cell[1] = origin + HASH_Z;
+    cell[2] = origin + HASH_Y;
+}
 
-    const vuint origin = x * HASH_Z + y * HASH_Y + grid;
-    cell[0] = hash_full(origin + ((vuint)mask_bits(upper) & (HASH_Z + HASH_Y)));
-    cell[1] = hash_full(origin + HASH_Z);
-    cell[2] = hash_full(origin + HASH_Y);
+/* The triangles of these grids' lattices around (u, v): three cells and barycentric weights of each. grids: known to
+ * the compiler, 1 or all.
+ *
+ * Step by step for all of them: what is computed for one is a long chain, and a compiler does not interleave chains. */
+static inline __attribute__((always_inline)) void grid_cells(const grid_vertex *vertex, const int grids, vdouble u,
+                                                             vdouble v, vuint seed, vuint *cell, vfloat *weight)
+{
+    vfloat sine[GRID_COUNT], cosine[GRID_COUNT];
+    vuint grid[GRID_COUNT];
+    grid_map map[GRID_COUNT];
+    grid_place place[GRID_COUNT];
+#pragma GCC unroll 4
+    for (int i = 0; i < grids; i++)
+        sincos_pi(vertex[i].direction * exp2_i(-vertex[i].ratio), &sine[i], &cosine[i]);
+#pragma GCC unroll 4
+    for (int i = 0; i < grids; i++)
+        grid[i] = hash_full(seed + (vuint)to_int(vertex[i].direction) * HASH_X + (vuint)vertex[i].ratio * HASH_Y +
+                            (vuint)vertex[i].level * HASH_Z);
+#pragma GCC unroll 4
+    for (int i = 0; i < grids; i++)
+        map[i] = grid_map_of(&vertex[i], sine[i], cosine[i], grid[i]);
+#pragma GCC unroll 4
+    for (int i = 0; i < grids; i++)
+        place[i] = grid_place_of(&map[i], u, v);
+#pragma GCC unroll 4
+    for (int i = 0; i < grids; i++)
+        grid_surround(&place[i], grid[i], cell + GRID_CELLS * i, weight + GRID_CELLS * i);
+#pragma GCC unroll 12
+    for (int i = 0; i < GRID_CELLS * grids; i++)
+        cell[i] = hash_full(cell[i]);
 }
 
 /* (u, v) in metres; beyond 2^51 cells from the origin single cells cannot be told apart. */
@@ -220,8 +265,7 @@ static inline void grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse
     const grid_shape shape = grid_shape_of(ellipse);
     grid_vertex vertex[GRID_COUNT];
     grid_tetrahedron(&shape, vertex, p->share);
-    for (int i = 0; i < GRID_COUNT; i++)
-        grid_cells(&vertex[i], u, v, seed, p->cell + GRID_CELLS * i, p->weight + GRID_CELLS * i);
+    grid_cells(vertex, GRID_COUNT, u, v, seed, p->cell, p->weight);
 }
 
 #endif

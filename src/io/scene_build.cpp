@@ -171,9 +171,14 @@ bool needs_tangents(const scene_material &m)
 }
 
 // Tangents belong to the texture coordinates of the normal texture (glTF 2.0 section 3.7.2.1).
+size_t tangent_texcoord(const scene_material &m)
+{
+    return m.normal_texture.image != SCENE_NONE ? static_cast<size_t>(m.normal_texture.texcoord) : 0;
+}
+
 void complete_tangents(const scene_material &m, geometry &g)
 {
-    const size_t wanted = m.normal_texture.image != SCENE_NONE ? static_cast<size_t>(m.normal_texture.texcoord) : 0;
+    const size_t wanted = tangent_texcoord(m);
     const size_t set = g.texcoord[wanted].empty() ? 1 - wanted : wanted;
     if (!g.tangent.empty() && geometry_normalise_tangents(g))
         return;
@@ -233,4 +238,9 @@ bool scene_build_mesh(scene *s, const scene_arrays *from, report *r)
             if (used[material])
                 append_mesh(s, from, static_cast<int>(material), r);
     });
+}
+
+bool scene_build_same_meshes(const scene_material *a, const scene_material *b)
+{
+    return needs_tangents(*a) == needs_tangents(*b) && tangent_texcoord(*a) == tangent_texcoord(*b);
 }

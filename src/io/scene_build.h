@@ -31,6 +31,9 @@ typedef struct scene_arrays {
  * What is not finite and every index out of range is an error that names the array and the place in it. */
 bool scene_build_mesh(scene *s, const scene_arrays *from, report *r);
 
+/* Whether scene_build_mesh makes the same meshes with one material as with the other. */
+bool scene_build_same_meshes(const scene_material *a, const scene_material *b);
+
 #ifdef __cplusplus
 }
 #endif

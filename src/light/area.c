@@ -71,16 +71,15 @@ static int is_above(const vec3d *v, int count)
     return above;
 }
 
-void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_sided)
+/* Whether the point at the origin sees a side of the flat light through `at` that shines. */
+static int is_seen(vec3d at, vec3d other, vec3d normal, int two_sided)
 {
-    l->kind = AREA_NOTHING;
-    if (count < 3 || count > AREA_MOST_CORNERS - 2)
-        return;
-    const vec3d area = vector_area(corner, count);
-    const double height = vec3d_dot(area, corner[0]);
-    const double size2 = vec3d_dot(corner[0], corner[0]) + vec3d_dot(corner[2], corner[2]);
-    if (!(height * height > EDGE_ON * EDGE_ON * size2 * vec3d_dot(area, area)) || (!two_sided && height > 0.0))
-        return;
+    const double height = vec3d_dot(normal, at), size2 = vec3d_dot(at, at) + vec3d_dot(other, other);
+    return height * height > EDGE_ON * EDGE_ON * size2 * vec3d_dot(normal, normal) && (two_sided || height <= 0.0);
+}
+
+static void take_corners(area_light *l, const vec3d *corner, int count)
+{
     l->corner_count = count;
     if (is_above(corner, count))
         memcpy(l->corner, corner, (size_t)count * sizeof(corner[0]));
@@ -89,12 +88,22 @@ void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_si
     l->kind = l->corner_count < 3 ? AREA_NOTHING : AREA_POLYGON;
 }
 
+void area_make_polygon(area_light *l, const vec3d *corner, int count, int two_sided)
+{
+    l->kind = AREA_NOTHING;
+    if (count >= 3 && count <= AREA_MOST_CORNERS - 2 &&
+        is_seen(corner[0], corner[2], vector_area(corner, count), two_sided))
+        take_corners(l, corner, count);
+}
+
 void area_make_rectangle(area_light *l, vec3d center, vec3d half_x, vec3d half_y, int two_sided)
 {
     const vec3d right = vec3d_add(center, half_x), left = vec3d_sub(center, half_x);
     const vec3d corner[4] = { vec3d_sub(left, half_y), vec3d_sub(right, half_y), vec3d_add(right, half_y),
                               vec3d_add(left, half_y) };
-    area_make_polygon(l, corner, 4, two_sided);
+    l->kind = AREA_NOTHING;
+    if (is_seen(corner[0], corner[2], vec3d_cross(half_x, half_y), two_sided))
+        take_corners(l, corner, 4);
 }
 
 /* ---- ellipses ---- */

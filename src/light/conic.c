@@ -196,25 +196,19 @@ vec3d conic_moment(const conic *c)
     return vec3d_add(arc, line);
 }
 
-vec3d conic_whole_moment(vec3d center, vec3d half_x, vec3d half_y)
+double conic_whole_form_factor(vec3d center, vec3d half_x, vec3d half_y)
 {
-    /* Eigenvalues -m, p and q of K: the moment is pi sqrt(p q / ((m + p) (m + q))) times the axis, whose products z z,
-     * z x and z y are minors of K + m over (m + p) (m + q). p q = volume^2 / m. */
-    const vec3d nothing = { 0.0, 0.0, 0.0 };
+    /* Eigenvalues -m, p and q of K: the moment is pi sqrt(p q / ((m + p) (m + q))) times the axis, whose height squared
+     * is a minor of K + m over (m + p) (m + q). p q = volume^2 / m. */
     dual k;
     if (!dual_of(center, half_x, half_y, &k))
-        return nothing;
+        return 0.0;
     const double m = -negative_eigenvalue(&k);
     if (!(m > 1e-30))
-        return nothing;
-    vec3d x = dual_row(&k, k.a.x, k.b.x, k.c.x), y = dual_row(&k, k.a.y, k.b.y, k.c.y);
-    const double zz = k.a.z * k.a.z + k.b.z * k.b.z - k.c.z * k.c.z;
+        return 0.0;
+    const double xx = k.a.x * k.a.x + k.b.x * k.b.x - k.c.x * k.c.x, yy = k.a.y * k.a.y + k.b.y * k.b.y - k.c.y * k.c.y;
+    const double zz = k.a.z * k.a.z + k.b.z * k.b.z - k.c.z * k.c.z, xy = k.a.x * k.a.y + k.b.x * k.b.y - k.c.x * k.c.y;
     const double volume = vec3d_dot(k.a, vec3d_cross(k.b, k.c)), both = volume * volume / m;
-    const double sums = m * (x.x + y.y + zz + 2.0 * m) + both;
-    x.x += m;
-    y.y += m;
-    const vec3d minors = vec3d_cross(x, y);
-    if (!(sums > 0.0) || !(minors.z > 0.0))
-        return nothing;
-    return vec3d_scale(minors, REAL_PI * sqrt(both / minors.z) / sums);
+    const double sums = m * (xx + yy + zz + 2.0 * m) + both, minor = (xx + m) * (yy + m) - xy * xy;
+    return sums > 0.0 && minor > 0.0 ? sqrt(both * minor) / sums : 0.0;
 }

@@ -13,9 +13,9 @@
 /* The grid: roughness sqrt(alpha) = i / (SIDE - 1), at least .01, and cos = 1 - .99 (j / (SIDE - 1))^2. Numbers: three
  * of the transform, directional albedo with F = 1 and with F = (1 - h.wi)^5, D_PR of Kneiphof and Klein 2024, Eq. 19.
  */
-enum { LTC_SIDE = 32, LTC_NUMBERS = 6 };
+enum { LTC_SIDE = 32, LTC_NUMBERS = 6, LTC_STRIDE = 8 };
 
-extern const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_NUMBERS];
+extern const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_STRIDE];
 
 typedef struct ltc {
     vec3d row[3];    /* of the matrix, which takes the lobe to the cosine */
@@ -25,21 +25,40 @@ typedef struct ltc {
 } ltc;
 
 /* wo.z > 0. */
-ltc ltc_find(ndf_kind kind, double alpha, vec3d wo);
+typedef ltc ltc_find(ndf_kind kind, double alpha, vec3d wo);
 
-/* A light with its directions moved, where the lobe is a cosine. */
+static inline vec3d ltc_transform(const ltc *l, vec3d v)
+{
+    return (vec3d){ vec3d_dot(l->row[0], v), l->row[1].x * v.x + l->row[1].y * v.y, v.z };
+}
+
+/* Lights that take in less of a lobe are none. */
+#define LTC_LEAST_SHARE 1e-26
+
+enum { LTC_MOST_SIDES = 2 * AREA_MOST_CORNERS };
+
+/* A light with its directions moved, where the lobe is a cosine, in sectors between an apex and its rim. Volumes are
+ * over its share: floats do not hold those of small lights. */
 typedef struct ltc_light {
-    double share;   /* of the lobe that it takes in, in [0, 1] */
-    vec3d middle;   /* a unit direction well within */
-    int side_count; /* straight sides of the rim, from a corner to the next */
-    vec3d corner[AREA_MOST_CORNERS + 1], normal[AREA_MOST_CORNERS]; /* unit; corner i x corner i + 1 */
-    int arc_count; /* and arcs of span 0 + cos t span 1 + sin t span 2, one after the other */
-    vec3d span[3];
-    double arc[CONIC_ARCS][2]; /* cos t and sin t where they begin */
-    double half_turns;         /* the length of each in t, over pi */
+    double share;                         /* of the lobe that it takes in, in [0, 1] */
+    vec3 apex;                            /* where it is closest to the pole; unit */
+    int side_count, side[LTC_MOST_SIDES]; /* sides of the rim that do not pass through the apex: from corner i to the
+                                             next */
+    float x[LTC_MOST_SIDES + 4], y[LTC_MOST_SIDES + 4], z[LTC_MOST_SIDES + 4]; /* corners, unit */
+    float volume[LTC_MOST_SIDES];                                              /* apex . (corner i x corner i + 1) */
+    float bend[LTC_MOST_SIDES]; /* corner + (t + bend t (1 - t) (1 - 2 t)) (next - corner) is even in angles */
+    int arc_count;              /* arcs center + cos t x + sin t y */
+    vec3 center, axis_x, axis_y;
+    float turn[3];            /* apex . (rim x rim') = turn 0 + turn 1 cos t + turn 2 sin t */
+    float arc[CONIC_ARCS][2]; /* cos t and sin t where they begin */
+    float half_turns;         /* the length of each in t, over pi */
 } ltc_light;
 
 /* Of a light that need not have been measured. 0: it is too small. */
-int ltc_move(const ltc *l, const area_light *light, ltc_light *moved);
+typedef int ltc_move(const ltc *l, const area_light *light, ltc_light *moved);
+
+/* The same source, and so the same bits, for the processor that the library is compiled for and for one with AVX2. */
+ltc_find ltc_find_base, ltc_find_avx2;
+ltc_move ltc_move_base, ltc_move_avx2;
 
 #endif

@@ -2,7 +2,7 @@
 #include "light/ltc.h"
 
 /* clang-format off */
-const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_NUMBERS] = {
+const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_STRIDE] = {
     { /* GGX */
         {
             { 1.000000e+00F, 0.000000e+00F, 1.000000e+00F, 1.000000e+00F, 5.845474e-20F, 1.000000e+00F },

@@ -16,10 +16,11 @@
 
 #include "math/elementary.h"
 
-/* Below this mean the survival function is walked, above it a Cornish-Fisher expansion of the normal quantile is used.
- * Another one may be given before: the study of the law asks what it costs. */
+/* Below this mean the survival function is walked, above it a Cornish-Fisher expansion of the normal quantile is used:
+ * its mean is right to 7e-5 there, its variance to 7e-4, its distribution to 6e-4. Another one may be given before: the
+ * study of the law asks what it costs. */
 #if !defined(BINOMIAL_WALK_MEAN)
-#define BINOMIAL_WALK_MEAN 8.0F
+#define BINOMIAL_WALK_MEAN 5.0F
 #endif
 #define BINOMIAL_WALK_STEPS 32
 
@@ -30,7 +31,6 @@ typedef struct binomial_chance {
     vfloat given;    /* p as it came */
     vfloat log_miss; /* log(1 - p) */
     vfloat odds;     /* p / (1 - p) */
-    vfloat skew;     /* (1 - 2 p) / 6 */
 } binomial_chance;
 
 /* p in [0, 1]. */
@@ -42,39 +42,31 @@ static inline binomial_chance binomial_chance_of(vfloat p)
     c.p = choose(c.flip, 1.0F - p, p);
     c.log_miss = log1m_half(c.p);
     c.odds = c.p / (1.0F - c.p);
-    c.skew = (1.0F - 2.0F * c.p) * (1.0F / 6.0F);
     return c;
 }
 
-/* s in [0, 1] to the number T for which a signed uniform 32-bit u with u < T has probability s. dither, uniform in [0,
- * 1), rounds up or down at random, so that the probability is right in the mean even below 2^-31. */
-static inline vint binomial_threshold(vfloat s, vfloat dither)
+#define BINOMIAL_SCALE 2147483648.0F
+
+/* A chance times 2^31, below 2^31, to the number T for which a signed uniform 32-bit u with u < T has that chance.
+ * Negative: 0. A number in [0, 1) added at random makes the chance right in the mean even below 2^-31. */
+static inline vint binomial_threshold(vfloat scaled)
 {
-    const vfloat most = splat(2147483520.0F); /* the largest float below 2^31 */
-    const vfloat t = max_f(s, splat(0.0F)) * 2147483648.0F + dither;
+    return (vint)((vuint)to_int(max_f(scaled, splat(0.0F))) << 1 ^ 0x80000000U);
+}
+
+/* The same for any chance up to one. One is missed once in 2^25. */
+static inline vint binomial_first_threshold(vfloat scaled)
+{
     /* The smaller one by its bits: GCC 12 converts both and then chooses, and 2^31 is no integer to convert. */
-    const vfloat fits = float_from_bits((vuint)min_i((vint)bits_of(t), (vint)bits_of(most)));
-    const vint scaled = (vint)((vuint)to_int(fits) << 1 ^ 0x80000000U);
-    return choose_i(less(most, t), splat_i(INT32_MAX), scaled);
+    const vint most = (vint)bits_of(splat(2147483520.0F)), bits = (vint)bits_of(max_f(scaled, splat(0.0F)));
+    return binomial_threshold(float_from_bits((vuint)min_i(bits, most)));
 }
 
-/* How many draws share one (N, p): groups, with a dither each, of so many. At most three of four. */
+/* How many draws share one (N, p), at most twelve, and what their weights add up to. */
 typedef struct binomial_many {
-    int groups, each;
+    int draws;
+    float total;
 } binomial_many;
-
-/* One step of the walk for one group: those draws whose uniform is below the threshold count one more. */
-static inline __attribute__((always_inline)) vfloat binomial_count(int draws, vint threshold, const vint *u,
-                                                                   const vfloat *weight, vfloat sum, vfloat *drawn)
-{
-    for (int i = 0; i < draws; i++) {
-        const vmask more = less_i(u[i], threshold);
-        sum = add_where(more, sum, weight[i]);
-        if (drawn)
-            drawn[i] = add_where(more, drawn[i], splat(1.0F));
-    }
-    return sum;
-}
 
 /* What the draws of one (N, p) share. */
 typedef struct binomial_law {
@@ -97,11 +89,60 @@ static inline binomial_law binomial_law_of(vfloat trials, const binomial_chance 
     return l;
 }
 
+/* The uniform to draw with: where counts are taken from the other end, so is the uniform. */
+static inline vint binomial_turned(const binomial_law *l, vint uniform)
+{
+    return choose_i(l->flip, (vint)(0U - (vuint)uniform), uniform);
+}
+
+/* Sums are kept in three parts, whose chains of additions are three times as short. */
+enum { BINOMIAL_PARTS = 3 };
+
+/* One step of the walk: those draws whose uniform is below the threshold count one more. */
+static inline __attribute__((always_inline)) void binomial_count(const int draws, vint threshold, const vint *u,
+                                                                 const vfloat *weight, vfloat sum[BINOMIAL_PARTS],
+                                                                 vfloat *drawn)
+{
+#pragma GCC unroll 12
+    for (int i = 0; i < draws; i++) {
+        const vmask more = less_i(u[i], threshold);
+        sum[i % BINOMIAL_PARTS] = add_where(more, sum[i % BINOMIAL_PARTS], weight[i]);
+        if (drawn)
+            drawn[i] = add_where(more, drawn[i], splat(1.0F));
+    }
+}
+
+/* Where the walk through the survival function begins. Chances are times 2^31. */
+typedef struct binomial_start {
+    vfloat survival, mass; /* P(X > 0) without what is left of a trial, and P(X = 0) */
+    vfloat step;           /* of the mass, times k at step k */
+    vint first;            /* threshold for a count of one */
+    vint least;            /* uniform of all draws */
+} binomial_start;
+
+/* Has no branch: made for several laws at once, before their walks, it keeps a processor from waiting for each. */
+static inline __attribute__((always_inline)) binomial_start
+binomial_start_of(const binomial_law *l, const binomial_chance *chance, const vint *u, vfloat dither, const int draws)
+{
+    vfloat em1, mass;
+    exp_both(l->n * chance->log_miss, &em1, &mass);
+    binomial_start s;
+    /* Lanes that are not walked stay at zero: a step of 0 keeps them from overflowing, and nothing survives. */
+    s.survival = choose(l->wide, splat(0.0F), em1 * -BINOMIAL_SCALE);
+    s.mass = mass * BINOMIAL_SCALE;
+    s.step = choose(l->wide, splat(0.0F), l->n * chance->odds);
+    s.least = u[0];
+    for (int i = 1; i < draws; i++)
+        s.least = min_i(s.least, u[i]);
+    s.least = choose_i(l->wide, splat_i(INT32_MAX), s.least);
+    s.first = binomial_first_threshold(s.survival + l->b * s.mass + dither);
+    return s;
+}
+
 /* The sum for small means: steps through the survival function until every uniform has been met. */
 static inline __attribute__((always_inline)) vfloat binomial_walk(const binomial_law *l, const binomial_chance *chance,
-                                                                  const vint *u, const vfloat *weight,
-                                                                  const vfloat *dither, vfloat *drawn,
-                                                                  const binomial_many many)
+                                                                  const binomial_start *s, const vint *u,
+                                                                  const vfloat *weight, vfloat *drawn, const int draws)
 {
     static const float inverse[BINOMIAL_WALK_STEPS] = {
         0.0F,      1.0F / 1,  1.0F / 2,  1.0F / 3,  1.0F / 4,  1.0F / 5,  1.0F / 6,  1.0F / 7,
@@ -109,110 +150,105 @@ static inline __attribute__((always_inline)) vfloat binomial_walk(const binomial
         1.0F / 16, 1.0F / 17, 1.0F / 18, 1.0F / 19, 1.0F / 20, 1.0F / 21, 1.0F / 22, 1.0F / 23,
         1.0F / 24, 1.0F / 25, 1.0F / 26, 1.0F / 27, 1.0F / 28, 1.0F / 29, 1.0F / 30, 1.0F / 31
     };
-    vfloat em1, mass;
-    exp_both(l->n * chance->log_miss, &em1, &mass);
-    vint least = u[0];
-    for (int i = 1; i < many.groups * many.each; i++)
-        least = min_i(least, u[i]);
-    least = choose_i(l->wide, splat_i(INT32_MAX), least);
-
-    vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
-    /* A step of 0 keeps lanes that are not walked from overflowing. */
-    vfloat survival = -em1, step = choose(l->wide, splat(0.0F), l->n * chance->odds);
-    vint first[3];
-    vmask left = mask_none();
-    for (int g = 0; g < many.groups; g++) {
-        first[g] = binomial_threshold(survival + l->b * mass, dither[g]);
-        left = left | less_i(least, first[g]);
-    }
-    if (!any(left))
-        return splat(0.0F);
-    for (int g = 0; g < many.groups; g++) {
-        const int from = many.each * g;
-        group[g] = binomial_count(many.each, first[g], u + from, weight + from, group[g], drawn ? drawn + from : drawn);
-    }
-    for (int k = 1; k < BINOMIAL_WALK_STEPS; k++) {
+    vfloat sum[BINOMIAL_PARTS] = { splat(0.0F), splat(0.0F), splat(0.0F) };
+    vfloat survival = s->survival, mass = s->mass, step = s->step;
+    vint next = s->first;
+    for (int k = 1; any(less_i(s->least, next)); k++) {
+        binomial_count(draws, next, u, weight, sum, drawn);
+        if (k == BINOMIAL_WALK_STEPS)
+            break;
         /* Denormals would cost up to four times as much. */
         mass = max_f(mass * step * inverse[k], splat(1e-30F));
         step = step - chance->odds;
         survival = survival - mass;
-        const vint next = binomial_threshold(survival + l->b * mass, splat(0.0F));
-        if (!any(less_i(least, next)))
-            break;
-        for (int g = 0; g < many.groups; g++) {
-            const int from = many.each * g;
-            group[g] = binomial_count(many.each, next, u + from, weight + from, group[g], drawn ? drawn + from : drawn);
-        }
+        next = binomial_threshold(survival + l->b * mass);
     }
-    return group[0] + group[1] + group[2];
+    return sum[0] + sum[1] + sum[2];
 }
 
-/* The sum for large means: X = floor(m + 1/2 - c + z (s + c z)), with continuity and skewness corrections (Cornish and
- * Fisher). */
+/* X = floor(centre - z (slope - z (bend - z twist))), for the normal quantile z. */
+typedef struct binomial_expansion {
+    vfloat centre, slope, bend, twist;
+} binomial_expansion;
+
+/* Cornish and Fisher's expansion to the third order of a smooth variable that rounds to the count: rounding adds 1/12
+ * to its variance and takes 1/120 from its fourth cumulant. */
+static inline binomial_expansion binomial_expansion_of(const binomial_law *l, const binomial_chance *chance)
+{
+    const vfloat q = 1.0F - chance->p, pq = chance->p * q, whole = l->n * pq;
+    const vfloat bq = l->b * (1.0F - l->b);
+    /* Of lanes to be expanded it is above 1.9. */
+    const vfloat variance = max_f(whole + bq - 0.083333333F, splat(1.0F));
+    const vfloat third = whole * (q - chance->p) + bq * (1.0F - 2.0F * l->b);
+    const vfloat fourth = whole * (1.0F - 6.0F * pq) + bq * (1.0F - 6.0F * bq) + 0.0083333333F;
+    const vfloat s = sqrt_f(variance), inverse = 1.0F / variance, r = s * inverse;
+    const vfloat c = third * inverse * (1.0F / 6.0F), e = fourth * inverse * (1.0F / 24.0F), c2 = c * c;
+    return (binomial_expansion){ l->mean + 0.5F - c, s + (5.0F * c2 - 3.0F * e) * r, c, (e - 2.0F * c2) * r };
+}
+
+/* The sum for large means. */
 static inline __attribute__((always_inline)) vfloat binomial_expand(const binomial_law *l,
                                                                     const binomial_chance *chance, const vint *u,
                                                                     const vfloat *weight, vfloat *drawn,
-                                                                    const binomial_many many)
+                                                                    const int draws)
 {
-    const vfloat variance = l->n * chance->p * (1.0F - chance->p) + l->b * (1.0F - l->b);
-    const vfloat c = chance->skew;
-    const vfloat s = sqrt_f(max_f(variance - 0.083333333F - 2.0F * c * c, splat(0.0F)));
-    const vfloat centre = l->mean + 0.5F - c;
-    vfloat group[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
-    for (int g = 0; g < many.groups; g++)
-        for (int i = many.each * g; i < many.each * (g + 1); i++) {
-            const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
-            const vfloat x = min_f(max_f(floor_f(centre - z * (s - c * z)), splat(0.0F)), l->n + 1.0F);
-            group[g] = group[g] + weight[i] * x;
-            if (drawn)
-                drawn[i] = choose(l->wide, x, drawn[i]);
-        }
-    return group[0] + group[1] + group[2];
+    const binomial_expansion e = binomial_expansion_of(l, chance);
+    const vfloat most = l->n + 1.0F;
+    vfloat sum[BINOMIAL_PARTS] = { splat(0.0F), splat(0.0F), splat(0.0F) };
+#pragma GCC unroll 12
+    for (int i = 0; i < draws; i++) {
+        const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
+        const vfloat x = floor_f(e.centre - z * (e.slope - z * (e.bend - z * e.twist)));
+        const vfloat count = min_f(max_f(x, splat(0.0F)), most);
+        sum[i % BINOMIAL_PARTS] = sum[i % BINOMIAL_PARTS] + weight[i] * count;
+        if (drawn)
+            drawn[i] = choose(l->wide, count, drawn[i]);
+    }
+    return sum[0] + sum[1] + sum[2];
 }
 
-/* Sum of weight[i] * X_i over draws from b(trials, chance).
+/* Sum of weight[i] * X_i over draws of one law.
  *
- * trials   >= 0, up to 1e30
- * uniform  hashes, uniform as signed 32-bit integers
+ * u        uniform as signed 32-bit integers, turned
  * weight   >= 0
  * drawn    NULL, or where each X_i goes
  * many     known to the compiler
  */
 static inline __attribute__((always_inline)) vfloat
-binomial_weighted_draws(vfloat trials, const binomial_chance *chance, const vint *uniform, const vfloat *weight,
-                        const vfloat *dither, vfloat *drawn, const binomial_many many)
+binomial_weighted_draws(const binomial_law *l, const binomial_chance *chance, const binomial_start *start,
+                        const vint *u, const vfloat *weight, vfloat *drawn, const binomial_many many)
 {
-    const int all = many.groups * many.each;
-    const binomial_law l = binomial_law_of(trials, chance);
-    vfloat sum = splat(0.0F), total = splat(0.0F);
-    vint u[12];
-    for (int i = 0; i < all; i++) {
-        u[i] = uniform[i] ^ mask_bits(l.flip);
-        total = total + weight[i];
-        if (drawn)
-            drawn[i] = splat(0.0F);
-    }
-    if (any(~l.wide))
-        sum = binomial_walk(&l, chance, u, weight, dither, drawn, many);
-    if (any(l.wide))
-        sum = choose(l.wide, binomial_expand(&l, chance, u, weight, drawn, many), sum);
-    for (int i = 0; drawn && i < all; i++)
-        drawn[i] = choose(l.flip, l.n + 1.0F - drawn[i], drawn[i]);
-    return choose(l.flip, (l.n + 1.0F) * total - sum, sum);
+    vfloat sum = splat(0.0F);
+    for (int i = 0; drawn && i < many.draws; i++)
+        drawn[i] = splat(0.0F);
+    if (any(less_i(start->least, start->first)))
+        sum = binomial_walk(l, chance, start, u, weight, drawn, many.draws);
+    if (any(l->wide))
+        sum = choose(l->wide, binomial_expand(l, chance, u, weight, drawn, many.draws), sum);
+    for (int i = 0; drawn && i < many.draws; i++)
+        drawn[i] = choose(l->flip, l->n + 1.0F - drawn[i], drawn[i]);
+    return choose(l->flip, (l->n + 1.0F) * many.total - sum, sum);
 }
 
-/* Twelve draws, in three groups of four. */
-static inline vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance, const vint uniform[12],
-                                           const vfloat weight[12], const vfloat dither[3])
+/* The same for uniforms as they come. trials: >= 0, up to 1e30. */
+static inline __attribute__((always_inline)) vfloat binomial_weighted_sum(vfloat trials, const binomial_chance *chance,
+                                                                          const vint *uniform, const vfloat *weight,
+                                                                          vfloat dither, vfloat *drawn,
+                                                                          const binomial_many many)
 {
-    return binomial_weighted_draws(trials, chance, uniform, weight, dither, (vfloat *)0, (binomial_many){ 3, 4 });
+    const binomial_law l = binomial_law_of(trials, chance);
+    vint u[12];
+    for (int i = 0; i < many.draws; i++)
+        u[i] = binomial_turned(&l, uniform[i]);
+    const binomial_start start = binomial_start_of(&l, chance, u, dither, many.draws);
+    return binomial_weighted_draws(&l, chance, &start, u, weight, drawn, many);
 }
 
 /* One draw alone. */
 static inline vfloat binomial_draw(vfloat trials, const binomial_chance *chance, vint uniform, vfloat dither)
 {
     const vfloat whole = splat(1.0F);
-    return binomial_weighted_draws(trials, chance, &uniform, &whole, &dither, (vfloat *)0, (binomial_many){ 1, 1 });
+    return binomial_weighted_sum(trials, chance, &uniform, &whole, dither, (vfloat *)0, (binomial_many){ 1, 1.0F });
 }
 
 #endif

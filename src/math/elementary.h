@@ -129,7 +129,7 @@ static inline vfloat normal_quantile(vfloat x)
     l = l * m + 2.09940228F;
     l = l * m - 4.04961689F;
     l = l * m + 2.50561466F;
-    l = l - to_float(exponent_of(w));
+    l = l - exponent_f(w);
     vfloat r = 2.074259067e-08F * l - 2.052269594e-06F;
     r = r * l + 7.779042563e-05F;
     r = r * l - 1.345180591e-03F;

@@ -19,11 +19,18 @@ static inline vuint hash_full(vuint x)
     return x ^ (x >> 16);
 }
 
-/* Enough for the top bits when x already is a hash plus a small lattice step. */
+/* Enough for the top bits when x already is a hash plus a small lattice step. times: HASH_TOP, or less than nothing of
+ * it for what is less than nothing of the hash. */
+#define HASH_TOP 0x846ca68bU
+
+static inline vuint hash_top_times(vuint x, vuint times)
+{
+    return (x ^ x >> 15) * times;
+}
+
 static inline vuint hash_top(vuint x)
 {
-    x ^= x >> 15;
-    return x * 0x846ca68bU;
+    return (x ^ x >> 15) * HASH_TOP;
 }
 
 #endif

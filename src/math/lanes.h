@@ -49,6 +49,18 @@ static inline vuint load_u(const uint32_t *p)
     return v;
 }
 
+static inline vint load_i(const int32_t *p)
+{
+    vint v;
+    memcpy(&v, p, sizeof(v));
+    return v;
+}
+
+static inline void store_u(uint32_t *p, vuint v)
+{
+    memcpy(p, &v, sizeof(v));
+}
+
 static inline void store_f(float *p, vfloat v)
 {
     memcpy(p, &v, sizeof(v));
@@ -92,9 +104,18 @@ static inline vint exponent_of(vfloat x)
     return (vint)(bits_of(x) >> 23) - 127;
 }
 
+#if !defined(LANES_TAKE_FLOATS_APART)
+
+static inline vfloat exponent_f(vfloat x)
+{
+    return to_float(exponent_of(x));
+}
+
 static inline vfloat mantissa_of(vfloat x)
 {
     return float_from_bits((bits_of(x) & 0x007fffffU) | 0x3f800000U);
 }
+
+#endif
 
 #endif

@@ -11,6 +11,16 @@ static inline int any(vmask m)
     return _mm256_movemask_ps((__m256)m) != 0;
 }
 
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
+}
+
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return (vint)choose(m, (vfloat)a, (vfloat)b);
+}
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return (vfloat)_mm256_min_ps((__m256)a, (__m256)b);
@@ -39,6 +49,11 @@ static inline vfloat floor_f(vfloat x)
 static inline vfloat lookup_f(const float *table, vint index)
 {
     return (vfloat)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+}
+
+static inline vuint gather_u(const void *base, vint byte)
+{
+    return (vuint)_mm256_i32gather_epi32(base, (__m256i)byte, 1);
 }
 
 static inline vdouble widen(vfloat f)

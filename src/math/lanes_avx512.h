@@ -81,9 +81,26 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
+#define LANES_TAKE_FLOATS_APART
+
+static inline vfloat exponent_f(vfloat x)
+{
+    return (vfloat)_mm512_getexp_ps((__m512)x);
+}
+
+static inline vfloat mantissa_of(vfloat x)
+{
+    return (vfloat)_mm512_getmant_ps((__m512)x, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_src);
+}
+
 static inline vfloat lookup_f(const float *table, vint index)
 {
     return (vfloat)_mm512_permutexvar_ps((__m512i)index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
+}
+
+static inline vuint gather_u(const void *base, vint byte)
+{
+    return (vuint)_mm512_i32gather_epi32((__m512i)byte, base, 1);
 }
 
 static inline vdouble widen(vfloat f)

@@ -34,14 +34,10 @@ static inline vint mask_bits(vmask m)
     return m;
 }
 
-static inline vint choose_i(vmask m, vint a, vint b)
+/* For machines that have no instruction to choose with. */
+static inline vint choose_bits(vmask m, vint a, vint b)
 {
     return (a & m) | (b & ~m);
-}
-
-static inline vfloat choose(vmask m, vfloat a, vfloat b)
-{
-    return (vfloat)choose_i(m, (vint)a, (vint)b);
 }
 
 /* sum + x where m is set, else sum, which must not be -0. */

@@ -16,6 +16,16 @@ static inline int any(vmask m)
     return bits != 0;
 }
 
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return choose_bits(m, a, b);
+}
+
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)choose_bits(m, (vint)a, (vint)b);
+}
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return choose(less(a, b), a, b);
@@ -50,6 +60,17 @@ static inline vfloat lookup_f(const float *table, vint index)
     vfloat v = { 0 };
     for (int i = 0; i < GLINT_LANES; i++)
         v[i] = table[index[i]];
+    return v;
+}
+
+static inline vuint gather_u(const void *base, vint byte)
+{
+    vuint v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++) {
+        uint32_t x;
+        memcpy(&x, (const char *)base + byte[i], sizeof(x));
+        v[i] = x;
+    }
     return v;
 }
 

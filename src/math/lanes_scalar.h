@@ -115,6 +115,14 @@ static inline vfloat lookup_f(const float *table, vint index)
     return table[index];
 }
 
+/* The 32 bits so many bytes after base. */
+static inline vuint gather_u(const void *base, vint byte)
+{
+    uint32_t x;
+    memcpy(&x, (const char *)base + byte, sizeof(x));
+    return x;
+}
+
 /* ---- doubles ---- */
 
 static inline vdouble load_d(const double *p)

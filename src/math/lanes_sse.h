@@ -11,6 +11,32 @@ static inline int any(vmask m)
     return _mm_movemask_ps((__m128)m) != 0;
 }
 
+#if defined(__SSE4_1__)
+
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)_mm_blendv_ps((__m128)b, (__m128)a, (__m128)m);
+}
+
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return (vint)choose(m, (vfloat)a, (vfloat)b);
+}
+
+#else
+
+static inline vint choose_i(vmask m, vint a, vint b)
+{
+    return choose_bits(m, a, b);
+}
+
+static inline vfloat choose(vmask m, vfloat a, vfloat b)
+{
+    return (vfloat)choose_bits(m, (vint)a, (vint)b);
+}
+
+#endif
+
 static inline vfloat min_f(vfloat a, vfloat b)
 {
     return (vfloat)_mm_min_ps((__m128)a, (__m128)b);
@@ -23,7 +49,11 @@ static inline vfloat max_f(vfloat a, vfloat b)
 
 static inline vint min_i(vint a, vint b)
 {
+#if defined(__SSE4_1__)
+    return (vint)_mm_min_epi32((__m128i)a, (__m128i)b);
+#else
     return choose_i(less_i(a, b), a, b);
+#endif
 }
 
 static inline vfloat sqrt_f(vfloat x)
@@ -54,6 +84,17 @@ static inline vfloat floor_f(vfloat x)
 static inline vfloat lookup_f(const float *table, vint index)
 {
     return (vfloat){ table[index[0]], table[index[1]], table[index[2]], table[index[3]] };
+}
+
+static inline vuint gather_u(const void *base, vint byte)
+{
+    vuint v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++) {
+        uint32_t x;
+        memcpy(&x, (const char *)base + byte[i], sizeof(x));
+        v[i] = x;
+    }
+    return v;
 }
 
 static inline vdouble widen(vfloat f)

@@ -10,9 +10,11 @@
 #include "math/hash.h"
 #include "model/area.h"
 #include "model/lobe.h"
+#include "model/lobe_kernel.h"
+#include "model/machine_lanes.h"
 #include "model/stretch.h"
 
-enum { CHUNK = 64 }; /* points gathered for the kernel at a time; a multiple of every width */
+enum { CHUNK = LOBE_MOST }; /* points gathered for the kernels at a time; a multiple of every width */
 
 /* Evaluates at most CHUNK queries. */
 typedef void eval_chunk(const model_query *q, size_t count, counting_width width, glint_value *value);
@@ -35,21 +37,20 @@ typedef struct gathered {
 
 counting_width counting_widest(size_t max_lanes)
 {
+    switch (machine_lanes(max_lanes)) {
 #if defined(__x86_64__)
-    __builtin_cpu_init();
-    if (max_lanes >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    case 16:
         return (counting_width){ 16, counting_kernel_16, counting_tinted_16, counting_drawn_16 };
-    if (max_lanes >= 8 && __builtin_cpu_supports("avx2"))
+    case 8:
         return (counting_width){ 8, counting_kernel_8, counting_tinted_8, counting_drawn_8 };
-    if (max_lanes >= 4 && __builtin_cpu_supports("sse4.1"))
-        return (counting_width){ 4, counting_kernel_4, counting_tinted_4, counting_drawn_4 };
-#elif defined(__aarch64__)
-    if (max_lanes >= 4)
+#endif
+#if defined(__x86_64__) || defined(__aarch64__)
+    case 4:
         return (counting_width){ 4, counting_kernel_4, counting_tinted_4, counting_drawn_4 };
 #endif
-    (void)max_lanes;
-    return (counting_width){ 1, counting_kernel_1, counting_tinted_1, counting_drawn_1 };
+    default:
+        return (counting_width){ 1, counting_kernel_1, counting_tinted_1, counting_drawn_1 };
+    }
 }
 
 counting_width counting_narrowest(void)
@@ -61,34 +62,39 @@ counting_width counting_narrowest(void)
     return counting_widest(1);
 }
 
-/* What a point makes of its light: the smooth reflection, and which facets are lit. */
-typedef struct lit {
-    float specular[3], diffuse[3];
-    vec3 h;
-    float cap; /* of the half vectors that are lit, seen from above */
-    float p;
-} lit;
-
-static void light(const model_query *q, lit *l)
+/* What points make of their lights: the smooth reflection, and which facets are lit. */
+static void find_one(const model_query *q, lobe_lit *l, size_t i)
 {
+    area_value a;
     if (q->area_light) {
-        area_value area;
-        area_eval(q, &area);
-        *l = (lit){ { area.specular[0], area.specular[1], area.specular[2] },
-                    { area.diffuse[0], area.diffuse[1], area.diffuse[2] },
-                    area.h,
-                    area.cap,
-                    area.lit_probability };
+        area_eval(q, &a);
+    } else {
+        lobe_value lobe;
+        lobe_eval(q, &lobe);
+        const float solid_angle = lobe_lit_solid_angle(q, &lobe);
+        a = (area_value){ .lit_probability = lobe_lit_probability(q, &lobe, solid_angle), .h = lobe.h };
+        a.cap = solid_angle * lobe.h.z;
+        memcpy(a.specular, lobe.specular, sizeof(a.specular));
+        memcpy(a.diffuse, lobe.diffuse, sizeof(a.diffuse));
+    }
+    for (int c = 0; c < 3; c++) {
+        l->specular[c][i] = a.specular[c];
+        l->diffuse[c][i] = a.diffuse[c];
+    }
+    l->h[0][i] = a.h.x;
+    l->h[1][i] = a.h.y;
+    l->cap[i] = a.cap;
+    l->p[i] = a.lit_probability;
+}
+
+static void find_lit(const model_query *q, size_t number, lobe_lit *l)
+{
+    if (number > 1 && !q->area_light) {
+        lobe_eval_many(q, number, 1, l);
         return;
     }
-    lobe_value lobe;
-    lobe_eval(q, &lobe);
-    const float solid_angle = lobe_lit_solid_angle(q, &lobe);
-    *l = (lit){ { lobe.specular[0], lobe.specular[1], lobe.specular[2] },
-                { lobe.diffuse[0], lobe.diffuse[1], lobe.diffuse[2] },
-                lobe.h,
-                solid_angle * lobe.h.z,
-                lobe_lit_probability(q, &lobe, solid_angle) };
+    for (size_t i = 0; i < number; i++)
+        find_one(&q[i], l, i);
 }
 
 /* Whether there is anything to count at this point. */
@@ -98,9 +104,10 @@ static int is_discrete(const model_query *q)
            q->surface->facets_per_m2 > 0.0F;
 }
 
-/* Fills entry i. */
-static void gather(const model_query *q, const lit *lobe, gathered *g, size_t i)
+/* Fills entry i from query j. */
+static void gather(const model_query *all, const lobe_lit *lit, size_t j, gathered *g, size_t i)
 {
+    const model_query *q = &all[j];
     const glint_material_options *o = &q->material->options;
     const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
     g->u[i] = f.u;
@@ -112,10 +119,10 @@ static void gather(const model_query *q, const lit *lobe, gathered *g, size_t i)
     g->density[i] = q->surface->facets_per_m2;
     g->seed[i] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
     g->draw[i] = f.draw;
-    g->hx[i] = lobe->h.x;
-    g->hy[i] = lobe->h.y;
-    g->cap[i] = lobe->cap;
-    g->p[i] = lobe->p;
+    g->hx[i] = lit->h[0][j];
+    g->hy[i] = lit->h[1][j];
+    g->cap[i] = lit->cap[j];
+    g->p[i] = lit->p[j];
 }
 
 static counting_points points_of(const gathered *g)
@@ -124,14 +131,16 @@ static counting_points points_of(const gathered *g)
                               g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
 }
 
-/* g: the share of the facets' light that is counted. */
-static void combine(const lit *lobe, float g, float factor, glint_value *value)
+/* factor: by channel. g: the share of the facets' light that is counted. */
+static void combine(const lobe_lit *lit, size_t i, float g, const float factor[3], glint_value *value)
 {
     for (int c = 0; c < 3; c++) {
-        value->smooth[c] = lobe->specular[c] + lobe->diffuse[c];
-        value->rgb[c] = lobe->specular[c] * ((1.0F - g) + g * factor) + lobe->diffuse[c];
+        value->smooth[c] = lit->specular[c][i] + lit->diffuse[c][i];
+        value->rgb[c] = lit->specular[c][i] * ((1.0F - g) + g * factor[c]) + lit->diffuse[c][i];
     }
 }
+
+static const float smooth_factor[3] = { 1.0F, 1.0F, 1.0F };
 
 /* Those queries of a chunk for which facets are counted in the same way. */
 typedef struct counted {
@@ -140,82 +149,67 @@ typedef struct counted {
     float share[CHUNK];         /* see combine */
 } counted;
 
-static void add(counted *c, const model_query *q, const lit *lobe, size_t index, float share)
+static void add(counted *c, const model_query *q, const lobe_lit *lit, size_t index, float share)
 {
-    gather(&q[index], &lobe[index], &c->points, c->count);
+    gather(q, lit, index, &c->points, c->count);
     c->index[c->count] = index;
     c->share[c->count++] = share;
 }
 
 /* The count rounded up to the width, the last entry repeated. */
-static size_t pad(counted *c, const model_query *q, const lit *lobe, size_t lanes)
+static size_t pad(counted *c, const model_query *q, const lobe_lit *lit, size_t lanes)
 {
     const size_t last = c->index[c->count - 1];
     size_t padded = c->count;
     for (; padded % lanes != 0; padded++)
-        gather(&q[last], &lobe[last], &c->points, padded);
+        gather(q, lit, last, &c->points, padded);
     return padded;
 }
 
-/* For facets of different colours. */
-static void count_tinted(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
+static void put(const counted *c, const lobe_lit *lit, float *const factor[3], const float *facets, glint_value *value)
 {
-    const counting_baked *baked = q->material->baked;
-    float factor[3][CHUNK], facets[CHUNK];
-    float *const factors[3] = { factor[0], factor[1], factor[2] };
-    const counting_points points = points_of(&c->points);
-    width.tinted(&points, pad(c, q, lobe, width.lanes), &baked->palette, factors, facets);
     for (size_t i = 0; i < c->count; i++) {
-        const lit *l = &lobe[c->index[i]];
         glint_value *v = &value[c->index[i]];
-        const float share = c->share[i];
-        combine(l, share, 1.0F, v);
-        for (int k = 0; k < 3; k++)
-            v->rgb[k] = l->specular[k] * ((1.0F - share) + share * factor[k][i]) + l->diffuse[k];
+        const float of_point[3] = { factor[0][i], factor[1][i], factor[2][i] };
+        combine(lit, c->index[i], c->share[i], of_point, v);
         v->facet_count = facets[i];
         v->lit_probability = c->points.p[i];
     }
 }
 
-static void put(const counted *c, const lit *lobe, const float *factor, const float *facets, glint_value *value)
-{
-    for (size_t i = 0; i < c->count; i++) {
-        glint_value *v = &value[c->index[i]];
-        combine(&lobe[c->index[i]], c->share[i], factor[i], v);
-        v->facet_count = facets[i];
-        v->lit_probability = c->points.p[i];
-    }
-}
-
-static void count(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
+static void count(counted *c, const model_query *q, const lobe_lit *lit, counting_width width, glint_value *value)
 {
     const counting_baked *baked = q->material->baked;
     if (c->count == 0)
         return;
-    if (baked->is_tinted) {
-        count_tinted(c, q, lobe, width, value);
-        return;
-    }
-    float factor[CHUNK], facets[CHUNK];
+    float factor[3][CHUNK], facets[CHUNK];
     const counting_points points = points_of(&c->points);
-    width.kernel(&points, pad(c, q, lobe, width.lanes), factor, facets);
-    put(c, lobe, factor, facets, value);
+    const size_t padded = pad(c, q, lit, width.lanes);
+    if (baked->is_tinted) {
+        float *const factors[3] = { factor[0], factor[1], factor[2] };
+        width.tinted(&points, padded, &baked->palette, factors, facets);
+        put(c, lit, factors, facets, value);
+    } else {
+        float *const factors[3] = { factor[0], factor[0], factor[0] };
+        width.kernel(&points, padded, factor[0], facets);
+        put(c, lit, factors, facets, value);
+    }
 }
 
 static void eval_all(const model_query *q, size_t number, counting_width width, glint_value *value)
 {
-    lit lobe[CHUNK];
+    lobe_lit lit;
     counted all;
     all.count = 0;
+    find_lit(q, number, &lit);
     for (size_t i = 0; i < number; i++) {
-        light(&q[i], &lobe[i]);
         value[i] = (glint_value){ 0 };
         if (is_discrete(&q[i]))
-            add(&all, q, lobe, i, q[i].surface->discreteness);
+            add(&all, q, &lit, i, q[i].surface->discreteness);
         else
-            combine(&lobe[i], 1.0F, 1.0F, &value[i]);
+            combine(&lit, i, 1.0F, smooth_factor, &value[i]);
     }
-    count(&all, q, lobe, width, value);
+    count(&all, q, &lit, width, value);
 }
 
 /* ---- within what the options allow to leave out ---- */
@@ -228,42 +222,43 @@ static float facets_under(const model_query *q)
     return (float)fabs(area) * q->surface->facets_per_m2;
 }
 
-static void count_drawn(counted *c, const model_query *q, const lit *lobe, counting_width width, glint_value *value)
+static void count_drawn(counted *c, const model_query *q, const lobe_lit *lit, counting_width width, glint_value *value)
 {
     float factor[CHUNK], facets[CHUNK];
     if (c->count == 0)
         return;
     const counting_points points = points_of(&c->points);
-    width.drawn(&points, c->points.draw, pad(c, q, lobe, width.lanes), factor, facets);
-    put(c, lobe, factor, facets, value);
+    float *const factors[3] = { factor, factor, factor };
+    width.drawn(&points, c->points.draw, pad(c, q, lit, width.lanes), factor, facets);
+    put(c, lit, factors, facets, value);
 }
 
 static void eval_what_shows(const model_query *q, size_t number, counting_width width, glint_value *value)
 {
     const glint_material_options *o = &q->material->options;
     const counting_baked *baked = q->material->baked;
-    lit lobe[CHUNK];
+    lobe_lit lit;
     counted all, drawn;
     all.count = drawn.count = 0;
+    find_lit(q, number, &lit);
     for (size_t i = 0; i < number; i++) {
-        light(&q[i], &lobe[i]);
         value[i] = (glint_value){ 0 };
-        const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lobe[i].p;
+        const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lit.p[i];
         /* Of less light than a float holds nothing is seen. */
         const float deviation = facets * p > 1e-30F ? 1.0F / sqrtf(facets * p) : facets > 0.0F ? 1e15F : 0.0F;
         const float share = deviation > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
         if (!(share > 0.0F)) {
-            combine(&lobe[i], 1.0F, 1.0F, &value[i]);
+            combine(&lit, i, 1.0F, smooth_factor, &value[i]);
             value[i].facet_count = facets;
             value[i].lit_probability = facets > 0.0F ? p : 0.0F;
         } else if (3.0F * deviation < o->draw_deviation && !baked->is_tinted) {
-            add(&drawn, q, lobe, i, share * q[i].surface->discreteness);
+            add(&drawn, q, &lit, i, share * q[i].surface->discreteness);
         } else {
-            add(&all, q, lobe, i, share * q[i].surface->discreteness);
+            add(&all, q, &lit, i, share * q[i].surface->discreteness);
         }
     }
-    count(&all, q, lobe, width, value);
-    count_drawn(&drawn, q, lobe, width, value);
+    count(&all, q, &lit, width, value);
+    count_drawn(&drawn, q, &lit, width, value);
 }
 
 static void counting_eval(const model_query *q, glint_value *value)

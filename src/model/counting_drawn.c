@@ -86,27 +86,29 @@ static vint draw_corner(const vint uniforms[4], const vfloat weights[4], vfloat 
 }
 
 /* b(N, p) / (N p) of the realisation that random in [0, 1) chooses. */
-static vfloat drawn_factor(const counting_points *points, size_t i, const counting_pixel *pixel, vfloat random)
+static vfloat drawn_factor(const counting_points *points, size_t i, const grid_ellipse *ellipse, vfloat counted,
+                           vfloat random)
 {
-    const vfloat p = load_f(points->p + i), drawn = pixel->ellipse.area * pixel->density * ANGULAR_SHARE;
-    const grid_shape shape = grid_shape_of(&pixel->ellipse);
+    const vfloat p = load_f(points->p + i), drawn = counting_drawn_from(counted);
+    const grid_shape shape = grid_shape_of(ellipse);
     grid_vertex vertex;
     vfloat share, taken;
     const vfloat in_grid = draw_grid(&shape, drawn * p, random, &vertex, &share, &taken);
     vuint cells[GRID_CELLS], cell;
     vfloat weights[GRID_CELLS];
-    grid_cells(&vertex, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
+    grid_cells(&vertex, 1, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
     const vfloat in_cell = draw_cell(cells, weights, in_grid, &cell);
 
     const angular_lattice lattice =
         angular_locate(load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i));
+    const angular_place place = angular_place_of(&lattice, cell);
     vint uniforms[4];
-    vfloat corners[4], dither;
-    angular_corners(&lattice, cell, splat(1.0F), uniforms, corners, &dither);
+    vfloat corners[4];
+    angular_corners(&place, cell, splat(1.0F / CORNER_SCALE), (vuint)splat_i((int32_t)HASH_TOP), uniforms, corners);
     const vint uniform = draw_corner(uniforms, corners, in_cell);
 
     const binomial_chance chance = binomial_chance_of(p);
-    const vfloat count = binomial_draw(drawn * share, &chance, uniform, dither);
+    const vfloat count = binomial_draw(drawn * share, &chance, uniform, angular_dither(cell));
     const vmask smooth = less_equal(splat(1.0F), p) | less(drawn * p, splat(LEAST_COUNT));
     return choose(smooth, splat(1.0F), count / max_f(drawn * p * taken, splat(1e-30F)));
 }
@@ -118,11 +120,11 @@ void JOIN(counting_drawn_, GLINT_LANES)(const counting_points *points, const uin
                                         float *factor, float *facets)
 {
     for (size_t i = 0; i < count; i += GLINT_LANES) {
-        const counting_pixel pixel = counting_pixel_of(points, i);
+        grid_ellipse ellipse;
+        const counting_pixel pixel = counting_pixel_of(points, i, &ellipse);
         const vfloat random = to_float((vint)(load_u(draw + i) >> 8)) * (1.0F / 16777216.0F);
-        const vfloat f = drawn_factor(points, i, &pixel, random);
-        const vmask flat = less(pixel.area, splat(LEAST_AREA));
-        store_f(factor + i, choose(flat, splat(1.0F), f));
-        store_f(facets + i, pixel.area * pixel.density);
+        const vfloat f = drawn_factor(points, i, &ellipse, pixel.counted, random);
+        store_f(factor + i, choose(pixel.flat, splat(1.0F), f));
+        store_f(facets + i, pixel.facets);
     }
 }

@@ -11,14 +11,38 @@
 #include "math/binomial.h"
 #include "model/counting_place.h"
 
-/* The twelve realisations of one grid, each with this many trials, weighted. */
-static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_CELLS],
-                         const vfloat cell_weight[GRID_CELLS], const binomial_chance *chance, vfloat trials)
+static const binomial_many realisations = { 4 * GRID_CELLS, CORNER_SCALE };
+
+/* What is counted on each grid. */
+typedef struct grid_counts {
+    binomial_law law[GRID_COUNT];
+    binomial_start start[GRID_COUNT];
+    angular_draws draws[GRID_COUNT];
+} grid_counts;
+
+/* All that comes before the first branch, for so many grids, 1 or all, known to the compiler. */
+static inline __attribute__((always_inline)) void prepare(const angular_lattice *lattice, const int grids,
+                                                          const vuint *cell, const vfloat *cell_weight,
+                                                          const binomial_chance *chance, const vfloat *trials,
+                                                          grid_counts *c)
 {
-    vint uniform[12];
-    vfloat weight[12], dither[GRID_CELLS];
-    angular_draws(lattice, cell, cell_weight, uniform, weight, dither);
-    return binomial_weighted_sum(trials, chance, uniform, weight, dither);
+    vuint hash[GRID_COUNT];
+#pragma GCC unroll 4
+    for (int g = 0; g < grids; g++) {
+        c->law[g] = binomial_law_of(trials[g], chance);
+        hash[g] = (vuint)binomial_turned(&c->law[g], splat_i((int32_t)HASH_TOP));
+    }
+    angular_draws_of(lattice, grids, cell, cell_weight, hash, c->draws);
+#pragma GCC unroll 4
+    for (int g = 0; g < grids; g++)
+        c->start[g] =
+            binomial_start_of(&c->law[g], chance, c->draws[g].uniform, c->draws[g].dither, realisations.draws);
+}
+
+static inline vfloat count(const grid_counts *c, int g, const binomial_chance *chance)
+{
+    return binomial_weighted_draws(&c->law[g], chance, &c->start[g], c->draws[g].uniform, c->draws[g].weight, NULL,
+                                   realisations);
 }
 
 /* b(N, p) / (N p) for one light. */
@@ -26,43 +50,49 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
 {
     const angular_lattice lattice = angular_locate(hx, hy, cap);
     const binomial_chance chance = binomial_chance_of(p);
-    const vfloat drawn = facets * ANGULAR_SHARE;
-    vfloat sum = splat(0.0F);
+    const vfloat drawn = counting_drawn_from(facets);
+    vfloat trials[GRID_COUNT], sum = splat(0.0F);
+    grid_counts counts;
     for (int g = 0; g < GRID_COUNT; g++)
-        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g, &chance,
-                               drawn * grid->share[g]);
+        trials[g] = drawn * grid->share[g];
+    prepare(&lattice, GRID_COUNT, grid->cell, grid->weight, &chance, trials, &counts);
+    for (int g = 0; g < GRID_COUNT; g++)
+        sum = sum + count(&counts, g, &chance);
     return counting_factor(sum, drawn, p);
 }
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
-void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t count, float *factor, float *facets)
+void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t size, float *factor, float *facets)
 {
-    for (size_t i = 0; i < count; i += GLINT_LANES) {
-        const counting_pixel pixel = counting_pixel_of(points, i);
-        grid_point grid;
-        grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i), &grid);
-        const vfloat f = lit_factor(&grid, pixel.ellipse.area * pixel.density, load_f(points->hx + i),
-                                    load_f(points->hy + i), load_f(points->cap + i), load_f(points->p + i));
-        /* A pixel without area is a mistake or the limit of one; it shows no single facet. */
-        const vmask flat = less(pixel.area, splat(LEAST_AREA));
-        store_f(factor + i, choose(flat, splat(1.0F), f));
-        store_f(facets + i, pixel.area * pixel.density);
+    for (size_t start = 0; start < size; start += COUNTING_BLOCK) {
+        counting_block block;
+        counting_place(points, start, size, &block);
+        for (size_t k = 0, i = start; k < block.count; k++, i += GLINT_LANES) {
+            const counting_pixel *const pixel = &block.pixel[k];
+            const vfloat f = lit_factor(&block.grid[k], pixel->counted, load_f(points->hx + i), load_f(points->hy + i),
+                                        load_f(points->cap + i), load_f(points->p + i));
+            store_f(factor + i, choose(pixel->flat, splat(1.0F), f));
+            store_f(facets + i, pixel->facets);
+        }
     }
 }
 
 #if GLINT_LANES == GRID_COUNT
 
-void counting_alone(const counting_points *points, size_t count, float *factor, float *facets)
+void counting_alone(const counting_points *points, size_t size, float *factor, float *facets)
 {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < size; i++) {
         counting_apart a;
         counting_take_apart(points, i, &a);
         const binomial_chance chance = binomial_chance_of(a.p);
-        const vfloat counts = count_grid(&a.lattice, a.cell, a.weight, &chance, a.drawn * a.share);
+        const vfloat trials = a.drawn * a.share;
+        grid_counts own;
+        prepare(&a.lattice, 1, a.cell, a.weight, &chance, &trials, &own);
+        const vfloat counts = count(&own, 0, &chance);
         factor[i] = counting_together(&a, counting_factor(counting_across(counts), a.drawn, a.p));
-        facets[i] = a.pixel.area[0] * a.pixel.density[0];
+        facets[i] = a.pixel.facets[0];
     }
 }
 

@@ -27,21 +27,52 @@
 #define LEAST_DENSITY 1e-12F
 #define LEAST_AREA 1e-30F
 
-/* What a pixel covers. */
+/* What a pixel covers: facets of its own, and with those that a facet's size around it adds. */
 typedef struct counting_pixel {
-    grid_ellipse ellipse; /* convolved with a facet */
-    vfloat area, density; /* of the pixel itself; facets per m^2 */
+    vfloat facets, counted;
+    vmask flat; /* A pixel without area is a mistake or the limit of one; it shows no single facet. */
 } counting_pixel;
 
-static inline counting_pixel counting_pixel_of(const counting_points *points, size_t i)
+static inline counting_pixel counting_pixel_of(const counting_points *points, size_t i, grid_ellipse *ellipse)
 {
     const vfloat dudx = load_f(points->dudx + i), dudy = load_f(points->dudy + i);
     const vfloat dvdx = load_f(points->dvdx + i), dvdy = load_f(points->dvdy + i);
-    counting_pixel p;
-    p.area = grid_area(dudx, dudy, dvdx, dvdy);
-    p.density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
-    p.ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, p.area, FACET_SHARE / p.density);
-    return p;
+    const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
+    const vfloat density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
+    *ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, FACET_SHARE / density);
+    return (counting_pixel){ area * density, ellipse->area * density, less(area, splat(LEAST_AREA)) };
+}
+
+/* Points are placed in blocks, one pass after another: what a pass computes for one vector is a single long chain, and
+ * a processor works at those of the next vectors meanwhile. */
+#define COUNTING_BLOCK 64
+
+typedef struct counting_block {
+    size_t count; /* vectors */
+    counting_pixel pixel[COUNTING_BLOCK / GLINT_LANES];
+    grid_point grid[COUNTING_BLOCK / GLINT_LANES];
+} counting_block;
+
+/* The block that begins with point `start` of `count`. */
+static inline void counting_place(const counting_points *points, size_t start, size_t count, counting_block *b)
+{
+    grid_vertex vertex[COUNTING_BLOCK / GLINT_LANES][GRID_COUNT];
+    const size_t left = count - start;
+    b->count = (left < COUNTING_BLOCK ? left : COUNTING_BLOCK) / GLINT_LANES;
+    grid_shape shape[COUNTING_BLOCK / GLINT_LANES];
+    for (size_t k = 0; k < b->count; k++) {
+        grid_ellipse ellipse;
+        b->pixel[k] = counting_pixel_of(points, start + GLINT_LANES * k, &ellipse);
+        shape[k] = grid_shape_of(&ellipse);
+    }
+    for (size_t k = 0; k < b->count; k++)
+        grid_tetrahedron(&shape[k], vertex[k], b->grid[k].share);
+    for (size_t k = 0; k < b->count; k++) {
+        const size_t i = start + GLINT_LANES * k;
+        const vdouble u = load_d(points->u + i), v = load_d(points->v + i);
+        const vuint seed = load_u(points->seed + i);
+        grid_cells(vertex[k], GRID_COUNT, u, v, seed, b->grid[k].cell, b->grid[k].weight);
+    }
 }
 
 /* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
@@ -49,7 +80,7 @@ static inline counting_pixel counting_pixel_of(const counting_points *points, si
 
 typedef struct angular_lattice {
     vint x, y;     /* h in units of 2^-16 cells of the finer level */
-    vint level;    /* log2 of cells per unit */
+    vuint number;  /* of the finer level */
     vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
 } angular_lattice;
 
@@ -60,58 +91,102 @@ static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
 {
     const vfloat area = min_f(max_f(cap, splat(1.0F / (1 << 2 * ANGULAR_LEVELS))), splat(1.0F));
     angular_lattice l;
-    l.level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
-    const vfloat scale = exp2_i(l.level);
+    const vint level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
+    const vfloat scale = exp2_i(level);
+    l.number = (vuint)level * HASH_Z;
     l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
     l.x = to_int(hx * scale * 65536.0F);
     l.y = to_int(hy * scale * 65536.0F);
     return l;
 }
 
-/* Uniforms and weights of the four corners around h in the lattice of one surface cell. */
-static inline void angular_corners(const angular_lattice *l, vuint cell, vfloat cell_weight, vint uniform[4],
-                                   vfloat weight[4], vfloat *dither)
+/* Weights of corners are 2^32 times what they should be: so fractions of 16 bits can be taken as they are. */
+#define CORNER_SCALE 4294967296.0F
+
+/* Where h is in the lattice of one surface cell, in units of 2^-16. */
+typedef struct angular_place {
+    vint x, y;
+    vuint number; /* of the level that the cell uses */
+} angular_place;
+
+static inline angular_place angular_place_of(const angular_lattice *l, vuint cell)
 {
-    const vuint bits = hash_top(cell + HASH_X);
-    const vmask coarse = less_i((vint)(bits >> 16), (vint)l->coarser);
-    *dither = to_float((vint)(bits & 0xffffU)) * (1.0F / 65536.0F);
+    /* The cell is a full hash: the top bits of a product are another one. */
+    const vmask coarse = less_i((vint)(cell * HASH_TOP >> 16), (vint)l->coarser);
+    angular_place p;
     /* Counted from h = 0, so that the coarser lattice of one level is the finer one of the next: when the cap passes a
      * power of four, corners keep their numbers. */
-    const vint x = choose_i(coarse, l->x >> 1, l->x) + (vint)(cell & 0xffffU);
-    const vint y = choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16);
+    p.x = choose_i(coarse, l->x >> 1, l->x) + (vint)(cell & 0xffffU);
+    p.y = choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16);
+    p.number = choose_u(coarse, l->number - HASH_Z, l->number);
+    return p;
+}
 
-    const vfloat fx = to_float(x & 0xffff), fy = to_float(y & 0xffff);
+/* Uniforms and weights of the four corners around it. hash: the last factor of their hash, HASH_TOP. */
+static inline void angular_corners(const angular_place *p, vuint cell, vfloat cell_weight, vuint hash, vint uniform[4],
+                                   vfloat weight[4])
+{
+    const vfloat fx = to_float(p->x & 0xffff), fy = to_float(p->y & 0xffff);
     const vfloat gx = 65536.0F - fx;
-    const vfloat scaled = cell_weight * 2.3283064e-10F; /* 2^-32 */
-    const vfloat up = scaled * fy, down = scaled * (65536.0F - fy);
+    const vfloat up = cell_weight * fy, down = cell_weight * (65536.0F - fy);
     weight[0] = gx * down;
     weight[1] = fx * down;
     weight[2] = gx * up;
     weight[3] = fx * up;
 
-    const vuint lattice = (vuint)(l->level + mask_bits(coarse)) * HASH_Z;
-    const vuint corner = (cell + (vuint)(x >> 16)) * HASH_X + (vuint)(y >> 16) * HASH_Y + lattice;
-    uniform[0] = (vint)hash_top(corner);
-    uniform[1] = (vint)hash_top(corner + HASH_X);
-    uniform[2] = (vint)hash_top(corner + HASH_Y);
-    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y));
+    const vuint corner = (cell + (vuint)(p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y + p->number;
+    uniform[0] = (vint)hash_top_times(corner, hash);
+    uniform[1] = (vint)hash_top_times(corner + HASH_X, hash);
+    uniform[2] = (vint)hash_top_times(corner + HASH_Y, hash);
+    uniform[3] = (vint)hash_top_times(corner + (HASH_X + HASH_Y), hash);
 }
 
-/* The twelve realisations of one grid, which share one (N, p). */
-static inline void angular_draws(const angular_lattice *l, const vuint cell[GRID_CELLS],
-                                 const vfloat cell_weight[GRID_CELLS], vint uniform[12], vfloat weight[12],
-                                 vfloat dither[GRID_CELLS])
+/* What binomial_start_of adds to a chance, from a cell. */
+static inline vfloat angular_dither(vuint cell)
 {
-    for (int c = 0; c < GRID_CELLS; c++)
-        angular_corners(l, cell[c], cell_weight[c], uniform + 4 * c, weight + 4 * c, dither + c);
+    return to_float((vint)(cell * HASH_X >> 16)) * (1.0F / 65536.0F);
 }
 
-/* b(N, p) / (N p) from what all realisations count; drawn: N times the angular share. 1 in the smooth limit. */
+/* The realisations of a grid, which share one (N, p): four of each cell. */
+typedef struct angular_draws {
+    vint uniform[4 * GRID_CELLS];
+    vfloat weight[4 * GRID_CELLS];
+    vfloat dither;
+} angular_draws;
+
+/* Those of so many grids, 1 or all, known to the compiler. hash: for each grid, as for the corners. In steps, as
+ * grid_cells. */
+static inline __attribute__((always_inline)) void angular_draws_of(const angular_lattice *l, const int grids,
+                                                                   const vuint *cell, const vfloat *cell_weight,
+                                                                   const vuint *hash, angular_draws *draws)
+{
+    angular_place place[GRID_COUNT * GRID_CELLS];
+#pragma GCC unroll 12
+    for (int i = 0; i < GRID_CELLS * grids; i++)
+        place[i] = angular_place_of(l, cell[i]);
+#pragma GCC unroll 12
+    for (int i = 0; i < GRID_CELLS * grids; i++) {
+        const int g = i / GRID_CELLS, c = i % GRID_CELLS;
+        angular_corners(&place[i], cell[i], cell_weight[i], hash[g], draws[g].uniform + 4 * c, draws[g].weight + 4 * c);
+    }
+#pragma GCC unroll 4
+    for (int g = 0; g < grids; g++)
+        draws[g].dither = angular_dither(cell[GRID_CELLS * g]);
+}
+
+/* How many facets realisations are drawn from. With more of them the weighted sum would be no float any more, and it
+ * does not vary. */
+static inline vfloat counting_drawn_from(vfloat facets)
+{
+    return min_f(facets * ANGULAR_SHARE, splat(1e28F));
+}
+
+/* b(N, p) / (N p) from the weighted sum of what all realisations count. 1 in the smooth limit. */
 static inline vfloat counting_factor(vfloat sum, vfloat drawn, vfloat p)
 {
     const vfloat expected = drawn * p;
     const vmask smooth = less_equal(splat(1.0F), p) | less(expected, splat(LEAST_COUNT));
-    return choose(smooth, splat(1.0F), sum / max_f(expected, splat(LEAST_COUNT)));
+    return choose(smooth, splat(1.0F), sum * (1.0F / CORNER_SCALE) / max_f(expected, splat(LEAST_COUNT)));
 }
 
 /* ---- one point alone: its four grids in four lanes, for a caller without a batch ---- */
@@ -152,15 +227,16 @@ typedef struct counting_apart {
     angular_lattice lattice;
     vuint cell[GRID_CELLS];
     vfloat weight[GRID_CELLS];
-    vfloat drawn, share, p; /* N times the angular share, and the grid's part of it */
+    vfloat drawn, share, p; /* drawn: for all grids; share: the grid's part of it */
 } counting_apart;
 
 static inline void counting_take_apart(const counting_points *points, size_t i, counting_apart *a)
 {
     counting_copies copies;
     const counting_points same = counting_copy(points, i, &copies);
-    a->pixel = counting_pixel_of(&same, 0);
-    const grid_shape shape = grid_shape_of(&a->pixel.ellipse);
+    grid_ellipse ellipse;
+    a->pixel = counting_pixel_of(&same, 0, &ellipse);
+    const grid_shape shape = grid_shape_of(&ellipse);
     grid_vertex all[GRID_COUNT];
     vfloat shares[GRID_COUNT];
     grid_tetrahedron(&shape, all, shares);
@@ -172,16 +248,15 @@ static inline void counting_take_apart(const counting_points *points, size_t i, 
         own.level[g] = all[g].level[g];
         a->share[g] = shares[g][g];
     }
-    grid_cells(&own, load_d(same.u), load_d(same.v), load_u(same.seed), a->cell, a->weight);
+    grid_cells(&own, 1, load_d(same.u), load_d(same.v), load_u(same.seed), a->cell, a->weight);
     a->lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
-    a->drawn = a->pixel.ellipse.area * a->pixel.density * ANGULAR_SHARE;
+    a->drawn = counting_drawn_from(a->pixel.counted);
     a->p = load_f(same.p);
 }
 
-/* A pixel without area shows no single facet. */
 static inline float counting_together(const counting_apart *a, vfloat factor)
 {
-    return a->pixel.area[0] < LEAST_AREA ? 1.0F : factor[0];
+    return choose(a->pixel.flat, splat(1.0F), factor)[0];
 }
 
 /* The sum over the grids, in their order, in every lane. */

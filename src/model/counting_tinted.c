@@ -44,16 +44,17 @@ static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_C
                          const vfloat cell_weight[GRID_CELLS], const binomial_chance *chance, vfloat trials,
                          const tint_palette *palette, vfloat tints[3])
 {
-    vint uniform[12];
-    vfloat weight[12], dither[GRID_CELLS], count[12];
-    angular_draws(lattice, cell, cell_weight, uniform, weight, dither);
-    const vfloat sum =
-        binomial_weighted_draws(trials, chance, uniform, weight, dither, count, (binomial_many){ GRID_CELLS, 4 });
+    const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
+    angular_draws d;
+    vfloat count[12];
+    angular_draws_of(lattice, 1, cell, cell_weight, &hash, &d);
+    const vfloat sum = binomial_weighted_sum(trials, chance, d.uniform, d.weight, d.dither, count,
+                                             (binomial_many){ 4 * GRID_CELLS, CORNER_SCALE });
     const vmask sure = less_equal(splat(1.0F), chance->given);
     for (int i = 0; i < 12; i++)
         count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
     tints[0] = tints[1] = tints[2] = splat(0.0F);
-    add_tints(palette, cell, uniform, weight, count, tints);
+    add_tints(palette, cell, d.uniform, d.weight, count, tints);
     return sum;
 }
 
@@ -62,7 +63,9 @@ static vfloat tinted_factor(vfloat sum, vfloat tints, vfloat drawn, vfloat p)
 {
     const vfloat expected = drawn * p, bounded = max_f(expected, splat(LEAST_COUNT));
     const vmask rare = less(expected, splat(LEAST_COUNT)), sure = less_equal(splat(1.0F), p);
-    return choose(rare, splat(1.0F), max_f(choose(sure, splat(1.0F), sum / bounded) + tints / bounded, splat(0.0F)));
+    sum = sum * (1.0F / CORNER_SCALE) / bounded;
+    tints = tints * (1.0F / CORNER_SCALE) / bounded;
+    return choose(rare, splat(1.0F), max_f(choose(sure, splat(1.0F), sum) + tints, splat(0.0F)));
 }
 
 /* The factors of the three channels for one light. */
@@ -71,7 +74,7 @@ static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat
 {
     const angular_lattice lattice = angular_locate(hx, hy, cap);
     const binomial_chance chance = binomial_chance_of(p);
-    const vfloat drawn = facets * ANGULAR_SHARE;
+    const vfloat drawn = counting_drawn_from(facets);
     vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
     for (int g = 0; g < GRID_COUNT; g++) {
         vfloat of_grid[3];
@@ -90,17 +93,18 @@ static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat
 void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t count, const tint_palette *palette,
                                          float *const factor[3], float *facets)
 {
-    for (size_t i = 0; i < count; i += GLINT_LANES) {
-        const counting_pixel pixel = counting_pixel_of(points, i);
-        grid_point grid;
-        grid_locate(load_d(points->u + i), load_d(points->v + i), &pixel.ellipse, load_u(points->seed + i), &grid);
-        vfloat f[3];
-        lit_factors(&grid, pixel.ellipse.area * pixel.density, load_f(points->hx + i), load_f(points->hy + i),
-                    load_f(points->cap + i), load_f(points->p + i), palette, f);
-        const vmask flat = less(pixel.area, splat(LEAST_AREA));
-        for (int c = 0; c < 3; c++)
-            store_f(factor[c] + i, choose(flat, splat(1.0F), f[c]));
-        store_f(facets + i, pixel.area * pixel.density);
+    for (size_t start = 0; start < count; start += COUNTING_BLOCK) {
+        counting_block block;
+        counting_place(points, start, count, &block);
+        for (size_t k = 0, i = start; k < block.count; k++, i += GLINT_LANES) {
+            const counting_pixel *const pixel = &block.pixel[k];
+            vfloat f[3];
+            lit_factors(&block.grid[k], pixel->counted, load_f(points->hx + i), load_f(points->hy + i),
+                        load_f(points->cap + i), load_f(points->p + i), palette, f);
+            for (int c = 0; c < 3; c++)
+                store_f(factor[c] + i, choose(pixel->flat, splat(1.0F), f[c]));
+            store_f(facets + i, pixel->facets);
+        }
     }
 }
 
@@ -118,7 +122,7 @@ void counting_tinted_alone(const counting_points *points, size_t count, const ti
         for (int c = 0; c < 3; c++)
             factor[c][i] =
                 counting_together(&a, tinted_factor(counting_across(counts), counting_across(tints[c]), a.drawn, a.p));
-        facets[i] = a.pixel.area[0] * a.pixel.density[0];
+        facets[i] = a.pixel.facets[0];
     }
 }
 

@@ -6,7 +6,7 @@
  * and d'Eon 2014) sample exactly what is evaluated.
  */
 #include "model/area_points.h"
-#include "model/dictionary_cell.h"
+#include "model/dictionary_kernel.h"
 #include "model/dictionary_patch.h"
 #include "model/lobe.h"
 #include "model/stretch.h"
@@ -65,6 +65,28 @@ static void find_point(const model_query *q, int discrete, point *p)
     p->discrete_share = g;
 }
 
+/* The cells of a patch that carry facets. */
+typedef struct carriers {
+    size_t count;
+    dictionary_cells cells;
+    float weight[DICTIONARY_MAX_CELLS];
+} carriers;
+
+static void find_carriers(const point *p, carriers *c)
+{
+    c->count = 0;
+    for (int i = 0; i < p->patch.count; i++) {
+        const dictionary_cell *cell = &p->patch.cell[i];
+        const float coverage = dictionary_cell_coverage(&p->surface, cell->hash, p->patch.grain_level[cell->level]);
+        if (!(coverage > 0.0F))
+            continue;
+        c->cells.hash[c->count] = cell->hash;
+        c->cells.log4_facets[c->count] =
+            dictionary_cell_log4(&p->surface, cell->hash, p->patch.log4_facets[cell->level], coverage);
+        c->weight[c->count++] = p->discrete_share * cell->weight * coverage;
+    }
+}
+
 /* D_P of Eq. 13 at h; target: D of the smooth distribution there. */
 static point_density density_at(const point *p, const glint_material_options *o, vec3 h, float target)
 {
@@ -72,27 +94,23 @@ static point_density density_at(const point *p, const glint_material_options *o,
     const int is_colored = tint_is_asked(o);
     const tint_palette palette = is_colored ? tint_palette_of(o) : (tint_palette){ 0 };
     const float cosine = fmaxf(h.z, LEAST_COSINE), cosine2 = cosine * cosine;
-    const slope at = { -h.x / cosine, -h.y / cosine };
+    carriers c;
+    float density[DICTIONARY_ROOM];
+    find_carriers(p, &c);
+    dictionary_cells_density(&p->surface, &c.cells, c.count, (slope){ -h.x / cosine, -h.y / cosine }, density);
     float tinted[3] = { d.plain, d.plain, d.plain };
-    for (int i = 0; i < p->patch.count; i++) {
-        const dictionary_cell *cell = &p->patch.cell[i];
-        const float coverage = dictionary_cell_coverage(&p->surface, cell->hash, p->patch.grain_level[cell->level]);
-        if (!(coverage > 0.0F))
-            continue;
-        dictionary_cell_slopes s;
-        dictionary_cell_find(&s, &p->surface, cell->hash, p->patch.log4_facets[cell->level], coverage);
-        const float weight = p->discrete_share * cell->weight * coverage;
-        const float slopes = s.count > 0 ? dictionary_cell_density(&s, &p->surface.target, at) : 0.0F;
-        const float one = weight * (s.count > 0 ? slopes / (cosine2 * cosine2) : target);
+    for (size_t i = 0; i < c.count; i++) {
+        const int is_target = dictionary_cell_is_target(c.cells.log4_facets[i]);
+        const float one = c.weight[i] * (is_target ? target : density[i] / (cosine2 * cosine2));
         float tint[3] = { 1.0F, 1.0F, 1.0F };
         if (is_colored)
-            tint_of(&palette, cell->hash, s.facets, tint);
+            tint_of(&palette, c.cells.hash[i], dictionary_cell_facets(c.cells.log4_facets[i]), tint);
         d.plain += one;
-        for (int c = 0; c < 3; c++)
-            tinted[c] += one * tint[c];
+        for (int k = 0; k < 3; k++)
+            tinted[k] += one * tint[k];
     }
-    for (int c = 0; c < 3; c++)
-        d.tinted[c] = tinted[c];
+    for (int k = 0; k < 3; k++)
+        d.tinted[k] = tinted[k];
     return d;
 }
 
@@ -182,7 +200,9 @@ static slope sample_slope(const point *p, float mass, float *choice, float u1, f
         return dictionary_target_sample(&p->surface.target, u1, u2);
     *choice = uniform_within(wanted, below, below + share);
     dictionary_cell_slopes s;
-    dictionary_cell_find(&s, &p->surface, chosen->hash, p->patch.log4_facets[chosen->level], coverage);
+    dictionary_cell_find(
+        &s, &p->surface, chosen->hash,
+        dictionary_cell_log4(&p->surface, chosen->hash, p->patch.log4_facets[chosen->level], coverage));
     return s.count > 0 ? dictionary_cell_sample(&s, &p->surface.target, choice, u1, u2)
                        : dictionary_target_sample(&p->surface.target, u1, u2);
 }

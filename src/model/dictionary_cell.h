@@ -32,8 +32,7 @@ typedef struct dictionary_lobes {
 enum { DICTIONARY_MAX_SCALES = 12 };
 
 typedef struct dictionary_cell_slopes {
-    float facets; /* how many the cell has, at least 1 */
-    int count;    /* 0: so many that the cell has the target's slopes */
+    int count; /* 0: so many that the cell has the target's slopes */
     dictionary_lobes lobes[DICTIONARY_MAX_SCALES];
 } dictionary_cell_slopes;
 
@@ -41,17 +40,28 @@ typedef struct dictionary_cell_slopes {
  * grain_level: see dictionary_patch. */
 float dictionary_cell_coverage(const dictionary_surface *surface, uint32_t hash, int grain_level);
 
-/* Fills *s for a cell with facets. log4_facets: see dictionary_patch; coverage > 0: of this cell. */
+/* The logarithm of how many facets a cell has, in [0, DICTIONARY_LEVELS]. log4_facets: in the mean, see
+ * dictionary_patch; coverage > 0: of this cell. */
+float dictionary_cell_log4(const dictionary_surface *surface, uint32_t hash, float log4_facets, float coverage);
+
+/* How many facets these are, at least 1. */
+float dictionary_cell_facets(float log4_facets);
+
+/* Whether a cell of so many, log4_facets >= 0, cannot be told from the target. */
+static inline int dictionary_cell_is_target(float log4_facets)
+{
+    return log4_facets >= (float)DICTIONARY_LEVELS - 0.5F;
+}
+
+/* Fills *s for a cell with facets. log4_facets: of this cell. */
 void dictionary_cell_find(dictionary_cell_slopes *s, const dictionary_surface *surface, uint32_t hash,
-                          float log4_facets, float coverage);
+                          float log4_facets);
 
 /* Whether every cell with so many facets has the target's slopes and the mean coverage, whatever its hash. */
 int dictionary_is_smooth(const dictionary_surface *surface, float log4_facets);
 
-/* P22 of a cell that is not the target's, in 1 / slope^2; its integral over the plane is 1. */
-float dictionary_cell_density(const dictionary_cell_slopes *s, const ndf *target, slope at);
-
-/* A slope with that density; *choice, u1 and u2 uniform in [0, 1). *choice is uniform again afterwards. */
+/* A slope of the cell, with the density that dictionary_cells_density has; *choice, u1 and u2 uniform in [0, 1).
+ * *choice is uniform again afterwards. */
 slope dictionary_cell_sample(const dictionary_cell_slopes *s, const ndf *target, float *choice, float u1, float u2);
 
 /* A slope of the target itself. */

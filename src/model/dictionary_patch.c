@@ -5,7 +5,7 @@
  * cell by its corner in units of the finest level; here the corner's own coordinates, exact in a double, are the name,
  * and the hierarchy has no finest level that all surfaces must share.
  */
-#include "model/dictionary_patch.h"
+#include "model/dictionary_kernel.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,10 +13,6 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 #include "math/hash.h"
-
-/* Weight of a cell at distance r from the centre, r = 1 on the ellipse: exp(-2 r^2) - exp(-2), Heckbert's filter. */
-#define FILTER_SHARPNESS 2.0F
-#define FILTER_EDGE 0.135335283F
 
 #define LOG2_OF_E 1.44269504F
 
@@ -51,14 +47,33 @@ static ellipse clamped_ellipse(const glint_footprint *f, float max_anisotropy)
     return e;
 }
 
-/* A coordinate of a cell's corner, which names it: a cell has the random numbers of that one of its four children whose
- * corner it shares (Eq. 8, coherent indexing). */
-static uint32_t hash_corner(double x, uint32_t seed)
+static uint64_t bits_of_coordinate(double x)
 {
     x += 0.0; /* -0 is 0 */
     uint64_t u;
     memcpy(&u, &x, sizeof(u));
+    return u;
+}
+
+/* A coordinate of a cell's corner, which names it: a cell has the random numbers of that one of its four children whose
+ * corner it shares (Eq. 8, coherent indexing). */
+static uint32_t hash_row(double x, uint32_t seed)
+{
+    const uint64_t u = bits_of_coordinate(x);
     return hash_full(hash_full(seed + (uint32_t)u) + (uint32_t)(u >> 32));
+}
+
+/* Named and weighed; weights of all sum to level_weight. */
+static void put_cells(dictionary_patch *patch, dictionary_corners *corners, int count, int level, float level_weight)
+{
+    uint32_t hash[DICTIONARY_ROOM];
+    float weight[DICTIONARY_ROOM], sum = 0.0F;
+    dictionary_corners_weigh(corners, (size_t)count, hash, weight);
+    for (int k = 0; k < count; k++)
+        sum += weight[k];
+    const float normalize = level_weight / sum;
+    for (int k = 0; k < count; k++)
+        patch->cell[patch->count++] = (dictionary_cell){ hash[k], weight[k] * normalize, level };
 }
 
 /* The cells of one level whose centres lie in the ellipse, which is made larger by one cell all around, so that there
@@ -76,25 +91,24 @@ static void gather_level(dictionary_patch *patch, const glint_footprint *f, cons
     const float uu = e->uu * scale + 1.0F, uv = e->uv * scale, vv = e->vv * scale + 1.0F;
     /* By rows: the ellipse at height y is centred at y uv / vv and has the width that is left of uu - uv^2 / vv. */
     const float slant = uv / vv, width2 = fmaxf(uu - uv * slant, 1.0F), height = sqrtf(vv);
-    const int first = patch->count;
-    float sum = 0.0F;
+    dictionary_corners corners;
+    int count = 0;
     for (int j = (int)ceilf(v - height); (float)j <= v + height; j++) {
-        const uint32_t row_hash = hash_corner((row + (double)j) * (double)side, seed);
+        const uint32_t row_hash = hash_row((row + (double)j) * (double)side, seed);
         const float y = (float)j - v, y2 = y * y / vv;
         const float half = sqrtf(fmaxf(width2 * (1.0F - y2), 0.0F)), middle = u + y * slant;
         for (int i = (int)ceilf(middle - half); (float)i <= middle + half; i++) {
             const float x = (float)i - middle, r2 = x * x / width2 + y2;
             if (!(r2 < 1.0F))
                 continue;
-            const float weight = exp_negative(-FILTER_SHARPNESS * r2) - FILTER_EDGE;
-            patch->cell[patch->count++] =
-                (dictionary_cell){ hash_corner((column + (double)i) * (double)side, row_hash), weight, level };
-            sum += weight;
+            const uint64_t bits = bits_of_coordinate((column + (double)i) * (double)side);
+            corners.row[count] = row_hash;
+            corners.low[count] = (uint32_t)bits;
+            corners.high[count] = (uint32_t)(bits >> 32);
+            corners.r2[count++] = r2;
         }
     }
-    const float normalize = level_weight / sum;
-    for (int k = first; k < patch->count; k++)
-        patch->cell[k].weight *= normalize;
+    put_cells(patch, &corners, count, level, level_weight);
 }
 
 void dictionary_patch_find(dictionary_patch *patch, const glint_footprint *footprint, float facets_per_m2,

@@ -14,8 +14,8 @@
 #define GLINT_LANES 1
 #include "math/elementary.h"
 #include "math/hash.h"
+#include "model/dictionary_lanes.h"
 
-#define SPACING (DICTIONARY_DOMAIN / DICTIONARY_SAMPLES)
 #define LOBE_SIGMA 0.02F
 
 /* Standard deviation of the places of lobes. With the lobes' own variance and that of linear interpolation, h^2 / 6,
@@ -32,7 +32,7 @@ typedef struct lobe_table {
     uint16_t guide[1 << GUIDE_BITS]; /* the place of the least quantile with these leading bits */
 } lobe_table;
 
-/* Sum of lobes at the samples, mirror images left out; entry 0 is slope -PADDING * SPACING. */
+/* Sum of lobes at the samples, mirror images left out; entry 0 is slope -PADDING * DICTIONARY_SPACING. */
 typedef struct lobe_sum {
     float at[PADDING + DICTIONARY_SAMPLES + PADDING];
 } lobe_sum;
@@ -41,7 +41,7 @@ typedef struct lobe_sum {
  * thousandth, into every marginal. */
 static void make_places(lobe_table *t)
 {
-    const float unit = SPACING / PHASES / PLACE_SIGMA;
+    const float unit = DICTIONARY_SPACING / PHASES / PLACE_SIGMA;
     double share[PLACES], sum = 0.0;
     for (int i = 0; i < PLACES; i++) {
         const float z = (float)i * unit;
@@ -63,7 +63,7 @@ static void make_lobes(lobe_table *t)
 {
     for (int p = 0; p < PHASES; p++)
         for (int k = 0; k < TAPS; k++) {
-            const float z = ((float)(k - BEFORE) - (float)p / PHASES) * (SPACING / LOBE_SIGMA);
+            const float z = ((float)(k - BEFORE) - (float)p / PHASES) * (DICTIONARY_SPACING / LOBE_SIGMA);
             t->tap[p][k] = exp_negative(-0.5F * z * z);
         }
     make_places(t);
@@ -81,11 +81,6 @@ static uint16_t half_of(float x)
         return 0;
     const uint32_t u = bits_of(x) - (112U << 23);
     return (uint16_t)((u + 0xfffU + (u >> 13 & 1U)) >> 13);
-}
-
-static float float_of(uint16_t h)
-{
-    return float_from_bits((uint32_t)h << 13) * 0x1p112F;
 }
 
 /* ---- places of lobes ---- */
@@ -169,13 +164,13 @@ static void fold_and_normalize(const lobe_sum *sum, dictionary_marginal marginal
         folded[i] = sum->at[PADDING + i] + (i <= PADDING ? sum->at[PADDING - i] : 0.0F);
         area += i > 0 ? folded[i] : 0.5F * folded[i];
     }
-    const float scale = 0.5F / (area * SPACING);
+    const float scale = 0.5F / (area * DICTIONARY_SPACING);
     float carried = 0.0F;
     for (int i = 0; i < DICTIONARY_SAMPLES; i++) {
         const float wanted = folded[i] * scale + carried;
         marginal[i] = half_of(wanted);
         /* Half of sample 0 counts, as its other half is that of the mirror image. */
-        carried = (wanted - float_of(marginal[i])) * (i > 0 ? 1.0F : 0.5F);
+        carried = (wanted - float_of_half(marginal[i])) * (i > 0 ? 1.0F : 0.5F);
     }
 }
 
@@ -199,30 +194,23 @@ void dictionary_build(dictionary *d, dictionary_scratch *scratch, uint32_t seed)
 
 float dictionary_density(const dictionary_marginal marginal, float x)
 {
-    const float t = fabsf(x) * (1.0F / SPACING);
-    if (!(t < (float)DICTIONARY_SAMPLES))
-        return 0.0F;
-    const int i = (int)t;
-    const float f = t - (float)i;
-    const float left = float_of(marginal[i]);
-    const float right = i + 1 < DICTIONARY_SAMPLES ? float_of(marginal[i + 1]) : 0.0F;
-    return left + f * (right - left);
+    return marginal_density((const dictionary_marginal *)marginal, 0, x);
 }
 
 float dictionary_quantile(const dictionary_marginal marginal, float u)
 {
     /* Twice the distance from the median is the share of |x| below the one that is sought. */
     const float signed_share = 2.0F * u - 1.0F;
-    float left = float_of(marginal[0]);
-    float rest = fabsf(signed_share) * (0.5F / SPACING);
+    float left = float_of_half(marginal[0]);
+    float rest = fabsf(signed_share) * (0.5F / DICTIONARY_SPACING);
     for (int i = 0; i < DICTIONARY_SAMPLES; i++) {
-        const float right = i + 1 < DICTIONARY_SAMPLES ? float_of(marginal[i + 1]) : 0.0F;
+        const float right = i + 1 < DICTIONARY_SAMPLES ? float_of_half(marginal[i + 1]) : 0.0F;
         const float segment = 0.5F * (left + right);
         if (rest < segment) {
             /* rest = left t + (right - left) t^2 / 2, without the difference of nearly equal numbers. */
             const float root = sqrtf(fmaxf(left * left + 2.0F * (right - left) * rest, 0.0F));
             const float t = fminf(2.0F * rest / (left + root), 1.0F);
-            return (signed_share < 0.0F ? -SPACING : SPACING) * ((float)i + t);
+            return (signed_share < 0.0F ? -DICTIONARY_SPACING : DICTIONARY_SPACING) * ((float)i + t);
         }
         rest -= segment;
         left = right;

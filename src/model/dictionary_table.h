@@ -13,6 +13,7 @@
 enum { DICTIONARY_LEVELS = 16, DICTIONARY_MARGINALS = 192, DICTIONARY_SAMPLES = 64 };
 #define DICTIONARY_ALPHA 0.5F
 #define DICTIONARY_DOMAIN 1.41421356F /* four standard deviations of the target, 4 alpha / sqrt 2 */
+#define DICTIONARY_SPACING (DICTIONARY_DOMAIN / DICTIONARY_SAMPLES)
 
 /* One marginal, even in x: samples of its density at x = i / 64 of the domain as IEEE half floats, straight lines
  * between them, zero at the end of the domain and beyond. */

@@ -6,10 +6,10 @@
  */
 #include "model/example_density.h"
 
-#include "light/cap.h"
 #include "model/area_points.h"
 
 #define GLINT_LANES 1
+#include "light/cap.h"
 #include "math/elementary.h"
 #include "math/hash.h"
 #include "model/lobe.h"

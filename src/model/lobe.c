@@ -1,75 +1,52 @@
 /* The smooth reflection that every model shares: a Cook-Torrance lobe of facets over a Lambertian base. */
 #include "model/lobe.h"
 
-#include "light/cap.h"
-#include "ndf/fresnel.h"
-#include "ndf/ndf.h"
-
 #define GLINT_LANES 1
-#include "math/elementary.h"
+#include "light/cap.h"
+#include "model/lobe_lanes.h"
 
 float lobe_facet_reflectance(const model_query *q, int channel, float cosine)
 {
-    const glint_material_options *o = &q->material->options;
-    switch (o->fresnel) {
-    case GLINT_FRESNEL_DIELECTRIC:
-        return fresnel_dielectric(cosine, o->ior);
-    case GLINT_FRESNEL_CONDUCTOR:
-        return fresnel_conductor(cosine, o->eta[channel], o->k[channel]);
-    case GLINT_FRESNEL_SCHLICK:
-        break;
-    }
-    return fresnel_schlick(cosine, q->surface->f0[channel], q->surface->f90[channel]);
+    return lobe_reflectance_of(&q->material->options, channel, q->surface->f0[channel], q->surface->f90[channel],
+                               cosine);
 }
 
-static float clamp01(float x)
-{
-    return x < 0.0F ? 0.0F : x > 1.0F ? 1.0F : x;
-}
-
-/* What is left for the base of light that enters at one angle and leaves at the other: (1 - F_o)(1 - F_i) / (1 - F_0).
- * glTF's own 1 - F(h.wo) is the same head-on but gives more light than came in at grazing angles; this is reciprocal
- * and never above one. */
 float lobe_base_albedo(const model_query *q, int channel, float cos_i)
 {
-    if (!(q->surface->diffuse[channel] > 0.0F))
-        return 0.0F;
-    const float coverage = q->material->options.coverage;
-    const float head_on = 1.0F - coverage * lobe_facet_reflectance(q, channel, 1.0F);
-    if (!(head_on > 0.0F))
-        return 0.0F;
-    const float out = 1.0F - coverage * lobe_facet_reflectance(q, channel, q->wo.z < 1.0F ? q->wo.z : 1.0F);
-    const float in = 1.0F - coverage * lobe_facet_reflectance(q, channel, cos_i < 1.0F ? cos_i : 1.0F);
-    /* Where facets reflect most head-on, as metals nearly do, no more is left than came in at either angle. */
-    const float least = in < out ? in : out, both = out * (in / head_on);
-    return q->surface->diffuse[channel] * (both < least ? both : least);
+    const glint_surface *s = q->surface;
+    return lobe_base_albedo_of(&q->material->options, channel, s->diffuse[channel], s->f0[channel], s->f90[channel],
+                               q->wo.z, cos_i);
+}
+
+static lobe_query one_query(const model_query *q)
+{
+    const glint_surface *s = q->surface;
+    return (lobe_query){ { q->wo.x, q->wo.y, q->wo.z },
+                         { q->wi.x, q->wi.y, q->wi.z },
+                         s->alpha_x,
+                         s->alpha_y,
+                         { s->diffuse[0], s->diffuse[1], s->diffuse[2] },
+                         { s->f0[0], s->f0[1], s->f0[2] },
+                         { s->f90[0], s->f90[1], s->f90[2] } };
 }
 
 void lobe_halve(const model_query *q, lobe_value *value)
 {
-    vec3 sum = vec3_add(q->wo, q->wi);
-    float length2 = vec3_dot(sum, sum), unit = 1.0F;
-    /* Opposite along the ground, the sum is so short that its square is no number; its direction is one all the same.
-     */
-    if (!(length2 > 1e-30F)) {
-        sum = vec3_scale(sum, 1e30F);
-        length2 = vec3_dot(sum, sum);
-        unit = 1e-30F;
-    }
-    value->h = vec3_normalize(sum);
-    /* h.wi = h.wo = |wo + wi| / 2: the same bits from both sides, so that reciprocity is exact. */
-    value->h_dot_wi = clamp01(0.5F * sqrtf(length2) * unit);
+    const vfloat3 h =
+        lobe_halve_of((vfloat3){ q->wo.x, q->wo.y, q->wo.z }, (vfloat3){ q->wi.x, q->wi.y, q->wi.z }, &value->h_dot_wi);
+    value->h = (vec3){ h.x, h.y, h.z };
 }
 
 void lobe_shade(const model_query *q, float masking_over_cosine, lobe_value *value)
 {
-    const float masking = 0.25F * masking_over_cosine;
-    const float coverage = q->material->options.coverage;
+    const lobe_query one = one_query(q);
+    lobe_shaded s;
+    lobe_shade_of(&q->material->options, &one, value->h_dot_wi, value->density, masking_over_cosine, &s);
     for (int c = 0; c < 3; c++) {
-        value->fresnel[c] = lobe_facet_reflectance(q, c, value->h_dot_wi);
-        value->reflectance[c] = coverage * value->fresnel[c] * masking;
-        value->specular[c] = value->reflectance[c] * value->density;
-        value->diffuse[c] = lobe_base_albedo(q, c, q->wi.z) * (q->wi.z / MATH_PI);
+        value->fresnel[c] = s.fresnel[c];
+        value->reflectance[c] = s.reflectance[c];
+        value->specular[c] = s.specular[c];
+        value->diffuse[c] = s.diffuse[c];
     }
 }
 
@@ -89,13 +66,9 @@ float lobe_lit_solid_angle(const model_query *q, const lobe_value *value)
 
 float lobe_lit_probability(const model_query *q, const lobe_value *value, float solid_angle_sr)
 {
-    const ndf n = lobe_ndf(q);
-    float p = value->density * solid_angle_sr;
-    if (q->material->options.weighting == GLINT_WEIGHTING_EQUAL_PROJECTED_AREA)
-        p *= value->h.z;
-    else
-        p /= q->total_area > 0.0F ? q->total_area : ndf_total_area(&n);
-    return p < 1.0F ? p : 1.0F;
+    const lobe_query one = one_query(q);
+    return lobe_lit_probability_of(&q->material->options, &one, q->total_area, value->density, value->h.z,
+                                   solid_angle_sr);
 }
 
 /* Their shares of the light, guessed head-on to the viewer. */

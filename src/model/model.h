@@ -46,7 +46,7 @@ struct model {
     /* With GLINT_FEATURE_SAMPLE_FOOTPRINT the solid angle says only whether there is a light: any above 0 gives the f
      * of sample. */
     void (*eval)(const model_query *q, glint_value *value);
-    /* eval for count queries, bit for bit. */
+    /* eval for count queries of one material, bit for bit: all of them under an area light, or none. */
     void (*eval_many)(const model_query *q, size_t count, glint_value *value);
     /* As glint_sample_direction and glint_pdf. */
     int (*sample)(const model_query *q, const float random[3], glint_sample *sample);

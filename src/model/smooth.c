@@ -1,6 +1,7 @@
 /* The smooth model: infinitely many facets, a Cook-Torrance lobe (Cook and Torrance 1982; Walter et al. 2007). */
 #include "model/area.h"
 #include "model/lobe.h"
+#include "model/lobe_kernel.h"
 
 static void smooth_eval(const model_query *q, glint_value *value)
 {
@@ -20,8 +21,22 @@ static void smooth_eval(const model_query *q, glint_value *value)
 
 static void smooth_eval_many(const model_query *q, size_t count, glint_value *value)
 {
-    for (size_t i = 0; i < count; i++)
-        smooth_eval(&q[i], &value[i]);
+    if (q->area_light) {
+        for (size_t i = 0; i < count; i++)
+            smooth_eval(&q[i], &value[i]);
+        return;
+    }
+    lobe_lit lit;
+    for (size_t first = 0; first < count; first += LOBE_MOST) {
+        const size_t number = count - first < LOBE_MOST ? count - first : LOBE_MOST;
+        lobe_eval_many(q + first, number, 0, &lit);
+        for (size_t i = 0; i < number; i++) {
+            glint_value *v = &value[first + i];
+            *v = (glint_value){ 0 };
+            for (int c = 0; c < 3; c++)
+                v->rgb[c] = v->smooth[c] = lit.specular[c][i] + lit.diffuse[c][i];
+        }
+    }
 }
 
 const struct model smooth_model = {

@@ -2,8 +2,7 @@
 #include "ndf/distributions.h"
 
 #define GLINT_LANES 1
-#include "math/elementary.h"
-#include "ndf/beckmann_masked.h"
+#include "ndf/ndf_lanes.h"
 
 #define SQRT_PI 1.77245385F
 
@@ -16,21 +15,17 @@ static float one_plus_erf(float x)
 
 float beckmann_density(float alpha_x, float alpha_y, vec3 h)
 {
-    const float z2 = h.z * h.z;
-    const float x = h.x / alpha_x, y = h.y / alpha_y;
-    const float slope2 = (x * x + y * y) / fmaxf(z2, 1e-30F);
-    return slope2 < 87.0F ? exp_negative(-slope2) / (MATH_PI * alpha_x * alpha_y * z2 * z2) : 0.0F;
+    return beckmann_density_of(alpha_x, alpha_y, (vfloat3){ h.x, h.y, h.z });
 }
 
 float beckmann_masked(float alpha_x, float alpha_y, vec3 v)
 {
-    const float x = alpha_x * v.x, y = alpha_y * v.y;
-    return beckmann_masked_at(sqrtf(x * x + y * y), v.z);
+    return beckmann_masked_of(alpha_x, alpha_y, (vfloat3){ v.x, v.y, v.z });
 }
 
 float beckmann_tail_area(float alpha, float w)
 {
-    return 0.5F * SQRT_PI * alpha * erfcx_f(w / alpha);
+    return beckmann_tail_of(alpha, w);
 }
 
 float beckmann_total_area(float alpha)

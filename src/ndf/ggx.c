@@ -2,36 +2,21 @@
 #include "ndf/distributions.h"
 
 #define GLINT_LANES 1
-#include "math/elementary.h"
+#include "ndf/ndf_lanes.h"
 
 float ggx_density(float alpha_x, float alpha_y, vec3 h)
 {
-    const float x = h.x / alpha_x, y = h.y / alpha_y;
-    const float t = x * x + y * y + h.z * h.z;
-    return 1.0F / (MATH_PI * alpha_x * alpha_y * t * t);
+    return ggx_density_of(alpha_x, alpha_y, (vfloat3){ h.x, h.y, h.z });
 }
 
 float ggx_masked(float alpha_x, float alpha_y, vec3 v)
 {
-    /* cos Lambda = (sqrt(alpha_x^2 x^2 + alpha_y^2 y^2 + z^2) - z) / 2, without the difference of nearly equal numbers.
-     */
-    const float x = alpha_x * v.x, y = alpha_y * v.y;
-    const float t = x * x + y * y;
-    const float length = sqrtf(t + v.z * v.z);
-    return length > 0.0F ? 0.5F * t / (length + v.z) : 0.0F;
+    return ggx_masked_of(alpha_x, alpha_y, (vfloat3){ v.x, v.y, v.z });
 }
 
 float ggx_tail_area(float alpha, float w)
 {
-    /* alpha^2 atanh(b / w) / b with b = sqrt(1 - alpha^2); a series where the quotient is small. */
-    const float b2 = (1.0F - alpha) * (1.0F + alpha);
-    const float x2 = b2 / (w * w);
-    if (x2 < 0.01F)
-        return alpha * alpha / w * (1.0F + x2 * (1.0F / 3.0F + x2 * (0.2F + x2 * (1.0F / 7.0F))));
-    const float b = sqrtf(b2);
-    /* w - b = (w^2 - b^2) / (w + b) loses nothing when alpha is small: w^2 - b^2 = (w^2 - 1) + alpha^2. */
-    const float difference = (w - 1.0F) * (w + 1.0F) + alpha * alpha;
-    return alpha * alpha * log_f((w + b) / sqrtf(difference)) / b;
+    return ggx_tail_of(alpha, w);
 }
 
 float ggx_total_area(float alpha)

@@ -9,6 +9,7 @@
 
 #include "io/scene_bounds.h"
 #include "io/scene_build.h"
+#include "preview/caller_light.h"
 
 bool caller_check_size(const char *name, size_t found, size_t expected, report *r)
 {
@@ -27,7 +28,7 @@ bool caller_check_finite(const char *place, const char *member, const float *val
     return true;
 }
 
-static bool check_array(const char *name, const void *array, size_t count, report *r)
+bool caller_check_array(const char *name, const void *array, size_t count, report *r)
 {
     if (count > INT_MAX)
         return report_error(r, "%s: found %zu, expected at most %d", name, count, INT_MAX);
@@ -95,7 +96,7 @@ static bool copy_image(const glint_preview_image *from, int number, scene_image 
 
 static bool copy_images(const glint_preview_scene_options *o, scene *s, report *r)
 {
-    if (!check_array("images", o->images, o->image_count, r))
+    if (!caller_check_array("images", o->images, o->image_count, r))
         return false;
     s->images = calloc(o->image_count > 0 ? o->image_count : 1U, sizeof *s->images);
     if (s->images == NULL)
@@ -177,9 +178,9 @@ static bool copy_instances(const glint_preview_scene_options *o, const int *firs
 
 static bool copy_geometry(const glint_preview_scene_options *o, scene *s, report *r)
 {
-    if (!check_array("meshes", o->meshes, o->mesh_count, r) ||
-        !check_array("instance_to_world", o->instance_to_world, o->instance_count, r) ||
-        !check_array("instance_mesh", o->instance_mesh, o->instance_count, r))
+    if (!caller_check_array("meshes", o->meshes, o->mesh_count, r) ||
+        !caller_check_array("instance_to_world", o->instance_to_world, o->instance_count, r) ||
+        !caller_check_array("instance_mesh", o->instance_mesh, o->instance_count, r))
         return false;
     int *const first = calloc(o->mesh_count + 1, sizeof *first);
     if (first == NULL)
@@ -189,118 +190,118 @@ static bool copy_geometry(const glint_preview_scene_options *o, scene *s, report
     return done;
 }
 
-/* ---- lights and world ---- */
+/* ---- the whole, and parts of it ---- */
 
-static bool check_light(const glint_preview_light *from, const char *place, report *r)
-{
-    if (!caller_check_size(place, from->size, sizeof *from, r))
-        return false;
-    if (from->kind < GLINT_PREVIEW_LIGHT_SUN || from->kind > GLINT_PREVIEW_LIGHT_DISK)
-        return report_error(r, "%s: kind is %d; expected %d to %d", place, from->kind, GLINT_PREVIEW_LIGHT_SUN,
-                            GLINT_PREVIEW_LIGHT_DISK);
-    const float numbers[12] = { from->color[0],  from->color[1],       from->color[2],
-                                from->intensity, from->range_m,        from->inner_cone_rad,
-                                from->radius_m,  from->outer_cone_rad, from->angular_diameter_rad,
-                                from->width_m,   from->height_m,       0.0F };
-    for (int i = 0; i < 12; ++i) {
-        if (!(numbers[i] >= 0.0F) || !isfinite(numbers[i]))
-            return report_error(r, "%s: found %g, expected finite numbers that are not negative", place,
-                                (double)numbers[i]);
-    }
-    if (from->kind == GLINT_PREVIEW_LIGHT_SPOT && !(from->inner_cone_rad < from->outer_cone_rad))
-        return report_error(r, "%s: inner_cone_rad is %g; expected less than the outer_cone_rad of %g", place,
-                            (double)from->inner_cone_rad, (double)from->outer_cone_rad);
-    return caller_check_finite(place, "to_world", from->to_world, 16, r);
-}
-
-static scene_light light_of(const glint_preview_light *from)
-{
-    static const scene_light_kind kinds[] = { SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_POINT, SCENE_LIGHT_SPOT,
-                                              SCENE_LIGHT_RECT, SCENE_LIGHT_DISK };
-    scene_light to = { .kind = kinds[from->kind],
-                       .color = { from->color[0], from->color[1], from->color[2] },
-                       .intensity = from->intensity,
-                       .range = from->range_m,
-                       .inner_cone_rad = from->inner_cone_rad,
-                       .outer_cone_rad = from->outer_cone_rad,
-                       .angular_diameter_rad = from->angular_diameter_rad,
-                       .radius_m = from->radius_m,
-                       .width_m = from->width_m,
-                       .height_m = from->height_m };
-    memcpy(to.to_world, from->to_world, sizeof to.to_world);
-    return to;
-}
-
-static bool copy_lights(const glint_preview_scene_options *o, scene *s, report *r)
-{
-    if (!check_array("lights", o->lights, o->light_count, r))
-        return false;
-    s->lights = calloc(o->light_count > 0 ? o->light_count : 1U, sizeof *s->lights);
-    if (s->lights == NULL)
-        return report_error(r, "no memory for %zu lights", o->light_count);
-    for (size_t i = 0; i < o->light_count; ++i) {
-        char place[32];
-        snprintf(place, sizeof place, "lights/%zu", i);
-        if (!check_light(&o->lights[i], place, r))
-            return false;
-        s->lights[s->light_count++] = light_of(&o->lights[i]);
-    }
-    return true;
-}
-
-/* Texels that hold no light there can be are black, as in a file. */
-static bool copy_map(const glint_preview_world *from, caller_world *to, report *r)
-{
-    if (from->map_width < 2 || from->map_width != 2 * from->map_height)
-        return report_error(r, "world: its map is %d x %d pixels, expected twice as wide as high", from->map_width,
-                            from->map_height);
-    const size_t count = 3 * (size_t)from->map_width * (size_t)from->map_height;
-    to->map = (environment_map){ from->map_width, from->map_height, malloc(count * sizeof(float)) };
-    if (to->map.rgb == NULL)
-        return report_error(r, "world: a map of %d x %d pixels does not fit into memory", from->map_width,
-                            from->map_height);
-    size_t mended = 0;
-    for (size_t i = 0; i < count; ++i) {
-        const bool good = isfinite(from->map[i]) && from->map[i] >= 0.0F;
-        to->map.rgb[i] = good ? from->map[i] : 0.0F;
-        mended += good ? 0U : 1U;
-    }
-    if (mended > 0)
-        report_warning(r, "world: %zu numbers of its map are no radiance (negative or not finite) and are taken as 0",
-                       mended);
-    to->environment = (preview_environment){ .map = &to->map, .scale = from->map_scale };
-    memcpy(to->environment.rotation, from->map_rotation, sizeof to->environment.rotation);
-    return true;
-}
-
-static bool copy_world(const glint_preview_world *from, caller_world *to, report *r)
-{
-    if (!caller_check_size("world", from->size, sizeof *from, r) ||
-        !caller_check_finite("world", "color", from->color, 3, r) ||
-        !caller_check_finite("world", "map_rotation", from->map_rotation, 4, r) ||
-        !caller_check_finite("world", "map_scale", &from->map_scale, 1, r))
-        return false;
-    for (int c = 0; c < 3; ++c)
-        to->sky.zenith[c] = to->sky.horizon[c] = to->sky.ground[c] = fmaxf(from->color[c], 0.0F);
-    return from->map == NULL || copy_map(from, to, r);
-}
-
-bool caller_scene_make(const glint_preview_scene_options *o, scene *out, caller_world *world, report *r)
+static bool copy_materials(const glint_preview_scene_options *o, scene *s, report *r)
 {
     static const char none[] = "{\"materials\": []}";
-    const char *const materials = o->materials != NULL ? o->materials : none;
-    *out = (scene){ 0 };
-    *world = (caller_world){ 0 };
-    if (!copy_images(o, out, r) || !scene_build_materials(out, materials, strlen(materials), r) ||
-        !copy_geometry(o, out, r) || !copy_lights(o, out, r) || !copy_world(&o->world, world, r))
+    const char *const text = o->materials != NULL ? o->materials : none;
+    return scene_build_materials(s, text, strlen(text), r);
+}
+
+/* Of the images their number counts, which indices are checked with. */
+static bool copy_materials_beside(const glint_preview_scene_options *o, const scene *images_of, scene *s, report *r)
+{
+    s->image_count = images_of->image_count;
+    const bool done = copy_materials(o, s, r);
+    s->image_count = 0;
+    return done;
+}
+
+static bool copy_look(const glint_preview_scene_options *o, int parts, const scene *images_of, scene *s, report *r)
+{
+    if ((parts & GLINT_PREVIEW_IMAGES) != 0)
+        return copy_images(o, s, r) && copy_materials(o, s, r);
+    return (parts & GLINT_PREVIEW_MATERIALS) == 0 || copy_materials_beside(o, images_of, s, r);
+}
+
+bool caller_scene_make_parts(const glint_preview_scene_options *o, int parts, const scene *images_of, caller_scene *c,
+                             report *r)
+{
+    *c = (caller_scene){ 0 };
+    c->warnings.now = CALLER_LOOK;
+    if (!copy_look(o, parts, images_of, &c->scene, r))
         return false;
-    scene_compute_bounds(out);
+    c->warnings.now = CALLER_LIGHTS;
+    if ((parts & GLINT_PREVIEW_LIGHTS) != 0 && !caller_lights_copy(o, &c->scene, r))
+        return false;
+    c->warnings.now = CALLER_WORLD;
+    return (parts & GLINT_PREVIEW_WORLD) == 0 || caller_world_copy(&o->world, &c->world, r);
+}
+
+bool caller_scene_make(const glint_preview_scene_options *o, caller_scene *c, report *r)
+{
+    if (!caller_scene_make_parts(o, CALLER_LOOKS, NULL, c, r))
+        return false;
+    c->warnings.now = CALLER_MESHES;
+    if (!copy_geometry(o, &c->scene, r))
+        return false;
+    scene_compute_bounds(&c->scene);
     return true;
 }
 
-void caller_scene_free(scene *s, caller_world *world)
+static void swap_bytes(void *a, void *b, size_t size)
 {
-    scene_free(s);
-    free(world->map.rgb);
-    *world = (caller_world){ 0 };
+    unsigned char *const x = a, *const y = b;
+    for (size_t i = 0; i < size; ++i) {
+        const unsigned char kept = x[i];
+        x[i] = y[i];
+        y[i] = kept;
+    }
+}
+
+/* An environment points to the map beside it. */
+static void point_to_own_map(caller_world *w)
+{
+    if (w->environment.map != NULL)
+        w->environment.map = &w->map;
+}
+
+void caller_scene_swap(caller_scene *a, caller_scene *b, int parts)
+{
+    scene *const x = &a->scene, *const y = &b->scene;
+    if ((parts & GLINT_PREVIEW_MATERIALS) != 0) {
+        swap_bytes(&x->materials, &y->materials, sizeof x->materials);
+        swap_bytes(&x->material_count, &y->material_count, sizeof x->material_count);
+    }
+    if ((parts & GLINT_PREVIEW_IMAGES) != 0) {
+        swap_bytes(&x->images, &y->images, sizeof x->images);
+        swap_bytes(&x->image_count, &y->image_count, sizeof x->image_count);
+    }
+    if ((parts & GLINT_PREVIEW_LIGHTS) != 0) {
+        swap_bytes(&x->lights, &y->lights, sizeof x->lights);
+        swap_bytes(&x->light_count, &y->light_count, sizeof x->light_count);
+    }
+    if ((parts & GLINT_PREVIEW_WORLD) != 0) {
+        swap_bytes(&a->world, &b->world, sizeof a->world);
+        point_to_own_map(&a->world);
+        point_to_own_map(&b->world);
+    }
+}
+
+/* What rays pass is decided in the tree. */
+static bool stop_the_same_rays(const scene_material *a, const scene_material *b)
+{
+    return a->alpha_mode == b->alpha_mode && a->double_sided == b->double_sided &&
+           (a->alpha_mode != SCENE_ALPHA_MASK || a->alpha_cutoff == b->alpha_cutoff);
+}
+
+bool caller_scene_same_meshes(const scene *a, const scene *b)
+{
+    if (a->material_count != b->material_count)
+        return false;
+    for (int i = 0; i < a->material_count; ++i) {
+        if (!scene_build_same_meshes(&a->materials[i], &b->materials[i]) ||
+            !stop_the_same_rays(&a->materials[i], &b->materials[i]))
+            return false;
+    }
+    return true;
+}
+
+void caller_scene_free(caller_scene *c)
+{
+    scene_free(&c->scene);
+    free(c->world.map.rgb);
+    caller_warnings_free(&c->warnings);
+    *c = (caller_scene){ 0 };
 }

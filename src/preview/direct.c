@@ -5,9 +5,7 @@
 #include <math.h>
 
 #include "preview/area_shadow.h"
-
-/* Lights that are gathered at a time. */
-#define CHUNK 16
+#include "preview/choose_lights.h"
 
 /* The ray that a cap waits for, towards a place of the light. */
 static void aim(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
@@ -35,6 +33,7 @@ static bool gather_light(const world *w, const hit *h, const shade_point *p, con
     for (int c = 0; c < 3; ++c)
         q->irradiance[c] = view.irradiance[c] * scale;
     q->waits = false;
+    q->weight = 1.0F;
     q->shade.point = p;
     q->shade.is_area = is_round || light_is_area(l);
     if (q->shade.is_area)
@@ -66,46 +65,88 @@ static void add_up(const light_query *q, const float throughput[3], radiance *su
     float total = 0.0F;
     for (int c = 0; c < 3; ++c) {
         const float incoming = throughput[c] * q->irradiance[c];
-        sum->discrete[c] += incoming * value->rgb[c];
-        sum->smooth[c] += incoming * value->smooth[c];
+        sum->discrete[c] += incoming * q->weight * value->rgb[c];
+        sum->smooth[c] += incoming * q->weight * value->smooth[c];
         total += incoming * value->smooth[c];
     }
     if (facets != NULL && total > facets->brightest)
         *facets = (direct_facets){ value->facet_count, value->lit_probability, total };
 }
 
+/* One light at one point, from its ray to its sum. */
+static void add_light(const world *w, light_query *q, const float throughput[3], radiance *sum, direct_facets *facets,
+                      ray_counts *counts)
+{
+    shade_query *const s = &q->shade;
+    if (q->waits && trace_occluded(w->trace, &q->shadow))
+        return;
+    if (s->is_area)
+        shade_eval_area(s->point, &s->area, &s->value);
+    else
+        shade_eval(s->point, s->wi, s->solid_angle_sr, &s->value);
+    count_evaluation(s, counts);
+    add_up(q, throughput, sum, facets);
+}
+
+/* Lights that stand for all of them, of more than MOST_LIGHTS. */
+static int choose(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                  chosen_light chosen[MOST_LIGHTS])
+{
+    return lights_choose(w->light_tree, p, h->position, random, dimension + (uint32_t)w->light_count, chosen);
+}
+
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
 {
+    chosen_light chosen[MOST_LIGHTS];
     light_query q;
-    for (int i = 0; i < w->light_count; ++i) {
-        shade_query *const s = &q.shade;
-        if (!gather_light(w, h, p, random, dimension + (uint32_t)i, &w->lights[i], facets != NULL, &q, counts) ||
-            (q.waits && trace_occluded(w->trace, &q.shadow)))
+    const bool is_any = w->light_count > MOST_LIGHTS;
+    const int count = is_any ? choose(w, h, p, random, dimension, chosen) : w->light_count;
+    for (int i = 0; i < count; ++i) {
+        const int index = is_any ? chosen[i].index : i;
+        if (!gather_light(w, h, p, random, dimension + (uint32_t)index, &w->lights[index], facets != NULL, &q, counts))
             continue;
-        if (s->is_area)
-            shade_eval_area(p, &s->area, &s->value);
-        else
-            shade_eval(p, s->wi, s->solid_angle_sr, &s->value);
-        count_evaluation(s, counts);
-        add_up(&q, throughput, sum, facets);
+        if (is_any)
+            q.weight = 1.0F / chosen[i].probability;
+        add_light(w, &q, throughput, sum, facets, counts);
     }
 }
 
 /* ---- many points ---- */
 
+static int gather_at(const world *w, const direct_point *p, uint32_t dimension, int index, light_query *q,
+                     ray_counts *counts)
+{
+    q->to = p;
+    return gather_light(w, p->hit, p->point, p->random, dimension + (uint32_t)index, &w->lights[index], true, q,
+                        counts);
+}
+
 /* Light by light, so that rays to one light run side by side. */
-static int gather(const world *w, const direct_point *points, int count, uint32_t dimension, int first, int end,
-                  light_query *queries, ray_counts *counts)
+static int gather_all(const world *w, const direct_point *points, int count, uint32_t dimension, light_query *queries,
+                      ray_counts *counts)
 {
     int found = 0;
-    for (int i = first; i < end; ++i)
-        for (int k = 0; k < count; ++k) {
-            const direct_point *const p = &points[k];
-            queries[found].to = p;
-            found += gather_light(w, p->hit, p->point, p->random, dimension + (uint32_t)i, &w->lights[i], true,
-                                  &queries[found], counts);
+    for (int i = 0; i < w->light_count; ++i)
+        for (int k = 0; k < count; ++k)
+            found += gather_at(w, &points[k], dimension, i, &queries[found], counts);
+    return found;
+}
+
+static int gather_chosen(const world *w, const direct_point *points, int count, uint32_t dimension,
+                         light_query *queries, ray_counts *counts)
+{
+    int found = 0;
+    for (int k = 0; k < count; ++k) {
+        const direct_point *const p = &points[k];
+        chosen_light chosen[MOST_LIGHTS];
+        const int chosen_count = choose(w, p->hit, p->point, p->random, dimension, chosen);
+        for (int i = 0; i < chosen_count; ++i) {
+            if (!gather_at(w, p, dimension, chosen[i].index, &queries[found], counts))
+                continue;
+            queries[found++].weight = 1.0F / chosen[i].probability;
         }
+    }
     return found;
 }
 
@@ -125,32 +166,31 @@ static int trace_shadows(const world *w, light_query *queries, int count, light_
     return lit_count;
 }
 
-static void add_chunk(const world *w, const direct_point *points, int count, uint32_t dimension, int first, int end,
-                      direct_scratch *s, ray_counts *counts)
+static const float whole[3] = { 1.0F, 1.0F, 1.0F };
+
+/* Points of at most SHADE_MOST_QUERIES lights together. */
+static void add_some(const world *w, const direct_point *points, int count, uint32_t dimension, direct_scratch *s,
+                     ray_counts *counts)
 {
-    static const float all[3] = { 1.0F, 1.0F, 1.0F };
-    const int found = gather(w, points, count, dimension, first, end, s->queries, counts);
+    const int found = w->light_count > MOST_LIGHTS ? gather_chosen(w, points, count, dimension, s->queries, counts)
+                                                   : gather_all(w, points, count, dimension, s->queries, counts);
     const int lit = trace_shadows(w, s->queries, found, s->lit);
     for (int i = 0; i < lit; ++i)
         s->shades[i] = &s->lit[i]->shade;
     shade_eval_many(s->shades, lit);
     for (int i = 0; i < lit; ++i) {
         count_evaluation(s->shades[i], counts);
-        add_up(s->lit[i], all, s->lit[i]->to->light, s->lit[i]->to->facets);
+        add_up(s->lit[i], whole, s->lit[i]->to->light, s->lit[i]->to->facets);
     }
 }
 
 void add_direct_light_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
                               direct_scratch *s, ray_counts *counts)
 {
-    const int lights = w->light_count < CHUNK ? w->light_count : CHUNK;
+    const int lights = w->light_count < MOST_LIGHTS ? w->light_count : MOST_LIGHTS;
     if (lights == 0)
         return;
     const int most = SHADE_MOST_QUERIES / lights;
-    for (int k = 0; k < count; k += most) {
-        const int some = count - k < most ? count - k : most;
-        for (int first = 0; first < w->light_count; first += CHUNK)
-            add_chunk(w, &points[k], some, dimension, first,
-                      first + CHUNK < w->light_count ? first + CHUNK : w->light_count, s, counts);
-    }
+    for (int k = 0; k < count; k += most)
+        add_some(w, &points[k], count - k < most ? count - k : most, dimension, s, counts);
 }

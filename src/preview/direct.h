@@ -32,6 +32,7 @@ typedef struct direct_point {
 typedef struct light_query {
     shade_query shade;
     float irradiance[3]; /* radiance where it is seen as a shape */
+    float weight;        /* how many lights it stands for */
     bool waits;          /* for its shadow ray */
     trace_ray shadow;
     const direct_point *to;

@@ -19,12 +19,20 @@ bool geometry_make(const scene *s, geometry *out, report *r)
         to->mirrored =
             v3_dot(m4_column(to->to_world, 0), v3_cross(m4_column(to->to_world, 1), m4_column(to->to_world, 2))) < 0.0;
         to->visible = m4_invert_affine(to->to_world, to->to_object);
-        if (!to->visible)
+    }
+    geometry_warn_of_flat(out, r);
+    return true;
+}
+
+void geometry_warn_of_flat(const geometry *g, report *r)
+{
+    const scene *const s = g->scene;
+    for (int i = 0; i < s->instance_count; ++i) {
+        if (!g->instances[i].visible)
             report_warning(r, "%s: nodes/%d (\"%s\"): its transform flattens it; it is not rendered",
                            s->path ? s->path : "scene", s->instances[i].node,
                            s->instances[i].name ? s->instances[i].name : "");
     }
-    return true;
 }
 
 void geometry_free(geometry *g)

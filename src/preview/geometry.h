@@ -20,6 +20,8 @@ typedef struct geometry {
 
 /* Warns of every instance that is flattened. The scene must outlive the geometry. */
 bool geometry_make(const scene *s, geometry *out, report *r);
+/* Names the instances that are not visible. */
+void geometry_warn_of_flat(const geometry *g, report *r);
 void geometry_free(geometry *g);
 
 typedef struct triangle_corners {

@@ -7,8 +7,8 @@
  *    angles radians, colours linear RGB, light radiometric. Texture coordinates have (0, 0) in the upper left corner.
  *  - A function returns GLINT_PREVIEW_OK or says why not: message, where it is not NULL, then holds at most
  * message_size bytes (terminator included) that name the thing, the place in it, what was found and what was expected.
- *  - Nothing is kept but what a handle holds. A scene never changes once it is made: any number of pictures, each used
- * by one thread at a time, may be rendered of it at once.
+ *  - Nothing is kept but what a handle holds. A scene changes only by glint_preview_scene_change: any number of
+ * pictures, each used by one thread at a time, may be rendered of it at once.
  *  - The bits of a picture do not depend on the number of threads, nor on the passes in which its samples came.
  */
 #ifndef GLINT_PREVIEW_H
@@ -40,8 +40,9 @@ GLINT_PREVIEW_API size_t glint_preview_size_of(const char *name);
 
 typedef enum glint_preview_result {
     GLINT_PREVIEW_OK = 0,
-    GLINT_PREVIEW_BAD_INPUT = 1, /* what cannot be rendered; the message says why */
-    GLINT_PREVIEW_CANCELLED = 2  /* see glint_preview_picture_cancel */
+    GLINT_PREVIEW_BAD_INPUT = 1,   /* what cannot be rendered; the message says why */
+    GLINT_PREVIEW_CANCELLED = 2,   /* see glint_preview_picture_cancel */
+    GLINT_PREVIEW_OTHER_MESHES = 3 /* see glint_preview_scene_change */
 } glint_preview_result;
 
 /* ---- scenes ---- */
@@ -156,7 +157,25 @@ typedef struct glint_preview_scene glint_preview_scene;
 GLINT_PREVIEW_API glint_preview_result glint_preview_scene_create(const glint_preview_scene_options *options,
                                                                   glint_preview_scene **out, char *message,
                                                                   size_t message_size);
-/* What is left out or mended, a line each, "" for nothing; the scene's own. */
+
+/* What of a scene can change without its meshes and its tree being made anew; added up. */
+typedef enum glint_preview_part {
+    GLINT_PREVIEW_MATERIALS = 1, /* materials, as many as there are, and model */
+    GLINT_PREVIEW_IMAGES = 2,    /* images; only with the materials */
+    GLINT_PREVIEW_LIGHTS = 4,
+    GLINT_PREVIEW_WORLD = 8
+} glint_preview_part;
+
+/* Puts what the options say of some parts in the place of what the scene has, and looks at nothing else of them. The
+ * scene then is, bit for bit, the one that all of its options together would make. Its pictures must be gone.
+ *
+ * GLINT_PREVIEW_OTHER_MESHES: these materials ask something else of the meshes (their number, tangents, what rays pass:
+ * sides and alpha), so that it takes a new scene. After any failure the scene is what it was. */
+GLINT_PREVIEW_API glint_preview_result glint_preview_scene_change(glint_preview_scene *s, int32_t parts,
+                                                                  const glint_preview_scene_options *options,
+                                                                  char *message, size_t message_size);
+/* What is left out or mended, a line each, "" for nothing; the scene's own. After a change: what concerns meshes, and
+ * what the change found. */
 GLINT_PREVIEW_API const char *glint_preview_scene_warnings(const glint_preview_scene *s);
 /* Its pictures must be gone. NULL is allowed. */
 GLINT_PREVIEW_API void glint_preview_scene_destroy(glint_preview_scene *s);
@@ -198,12 +217,22 @@ typedef struct glint_preview_picture_options {
     uint32_t seed;       /* of the sampling noise */
     int32_t passes;      /* 1: all passes; 0: only GLINT_PREVIEW_COMBINED, which takes a third of the memory */
     int32_t transparent; /* 1: the camera does not see the world, alpha is 0 there */
+    float accuracy;      /* [0, 1]: the error that a picture may have for speed; docs/plan.md. 0: leaves nothing out */
 } glint_preview_picture_options;
 
 #define GLINT_PREVIEW_PICTURE_OPTIONS_INIT                                                                             \
     {                                                                                                                  \
-        sizeof(glint_preview_picture_options), 0, 640, 360, 0, 0, 0, 0, 16, 1, 0, 0, 1, 0                              \
+        sizeof(glint_preview_picture_options), 0, 640, 360, 0, 0, 0, 0, 16, 1, 0, 0, 1, 0, 0                           \
     }
+
+/* What a picture with these options would do, what it would leave out, and what each costs: lines whose fields tabs set
+ * apart. The first line: nanoseconds of one core a sample, error of what is left out, noise of the samples (both
+ * relative), "met" or "missed" (the accuracy), samples that would meet it (0: no number would). Then a line a decision:
+ * name of its material (empty: of the whole picture), effect, "on" or "off", choice, share of the time, error, reason.
+ * docs/plan.md. A text_size that is too small is an error that says how large it must be. */
+GLINT_PREVIEW_API glint_preview_result glint_preview_plan(const glint_preview_scene *s,
+                                                          const glint_preview_picture_options *options, char *text,
+                                                          size_t text_size, char *message, size_t message_size);
 
 typedef struct glint_preview_picture glint_preview_picture;
 

@@ -5,7 +5,7 @@
 #include "preview/camera.h"
 #include "preview/emitters.h"
 #include "preview/environment.h"
-#include "preview/light.h"
+#include "preview/light_tree.h"
 #include "preview/preview.h"
 #include "preview/shade.h"
 
@@ -16,7 +16,8 @@ typedef struct world {
     const camera *camera;
     const light *lights;
     int light_count;
-    const emitters *emitters; /* NULL: nothing glows, or bounces that would find it are not asked for */
+    const light_tree *light_tree; /* where there are more lights than MOST_LIGHTS */
+    const emitters *emitters;     /* NULL: nothing glows, or bounces that would find it are not asked for */
     shader shader;
     preview_sky sky;
     const environment *environment; /* in place of the sky; NULL: none */

@@ -78,17 +78,18 @@ glint_model materials_model(const scene *s, int index, scene_glint_layer layer, 
     return g != NULL ? scene_model_of(g) : GLINT_MODEL_SMOOTH;
 }
 
-static bool plan_layer(const materials *all, int index, scene_glint_layer layer, int model, const glint_plan *plan,
-                       layer_plan *out, report *r)
+static bool plan_layer(const scene *s, int index, scene_glint_layer layer, const preview_options *o,
+                       const glint_plan *plan, layer_plan *out, report *r)
 {
-    const scene *const s = all->scene;
     const scene_material *const m = &s->materials[index];
     const scene_glint *const g = scene_layer_glint(m, layer);
-    const glint_model wanted = materials_model(s, index, layer, model);
+    const glint_model wanted = materials_model(s, index, layer, o->model);
     if (plan == NULL)
         warn_of_unrendered(s, index, g, wanted, r);
     out->options = layer == SCENE_LAYER_BASE ? scene_base_options(m, wanted) : scene_coat_options(m, wanted);
-    choose_facets(all->facets, &out->options);
+    choose_facets(o->facets, &out->options);
+    /* A survey looks with the fit: that is near enough for a plan. */
+    out->options.area_light_method = o->accuracy > 0.0 ? GLINT_AREA_LIGHT_FAST : o->area_lights;
     if (plan != NULL)
         glint_plan_cut(plan, (uint32_t)index, &out->options);
     return out->options.model != GLINT_MODEL_EXAMPLE || example_map_open(s, g, &out->options, &out->normals, r);
@@ -113,14 +114,13 @@ static bool make(const scene *s, int index, const glint_material_options *option
     return true;
 }
 
-static bool make_layers(const materials *all, int index, int model, const glint_plan *plan, material_layers *out,
-                        report *r)
+static bool make_layers(const scene *s, int index, const preview_options *o, const glint_plan *plan,
+                        material_layers *out, report *r)
 {
-    const scene *const s = all->scene;
     const bool is_coated = s->materials[index].clearcoat > 0.0F;
     layer_plan base = { 0 }, coat = { 0 };
-    bool done = plan_layer(all, index, SCENE_LAYER_BASE, model, plan, &base, r) &&
-                (!is_coated || plan_layer(all, index, SCENE_LAYER_CLEARCOAT, model, plan, &coat, r));
+    bool done = plan_layer(s, index, SCENE_LAYER_BASE, o, plan, &base, r) &&
+                (!is_coated || plan_layer(s, index, SCENE_LAYER_CLEARCOAT, o, plan, &coat, r));
     if (done && is_coated) {
         glint_material_options whole = GLINT_MATERIAL_OPTIONS_INIT;
         whole.model = GLINT_MODEL_LAYERED;
@@ -137,16 +137,16 @@ static bool make_layers(const materials *all, int index, int model, const glint_
     return done;
 }
 
-bool materials_make(const scene *s, int model, preview_facets facets, const glint_plan *plan, materials *out, report *r)
+bool materials_make(const scene *s, const preview_options *o, const glint_plan *plan, materials *out, report *r)
 {
-    *out = (materials){ .scene = s, .facets = facets };
+    *out = (materials){ .scene = s, .facets = o->facets };
     const size_t count = s->material_count > 0 ? (size_t)s->material_count : 1U;
     out->layers = calloc(count, sizeof *out->layers);
     if (out->layers == NULL)
         return report_error(r, "no memory for %d materials", s->material_count);
 
     for (int i = 0; i < s->material_count; ++i) {
-        if (!make_layers(out, i, model, plan, &out->layers[i], r)) {
+        if (!make_layers(s, i, o, plan, &out->layers[i], r)) {
             materials_free(out);
             return false;
         }

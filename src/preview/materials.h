@@ -20,11 +20,10 @@ typedef struct materials {
     material_layers *layers; /* scene->material_count */
 } materials;
 
-/* model: a glint_model, or PREVIEW_MODEL_AUTO: for each material the one that shows what it asks for, see
- * scene_model_of. plan: what is left out; NULL: all is as the scene asks, and warnings say what a material asks for and
- * its model does not render. */
-bool materials_make(const scene *s, int model, preview_facets facets, const glint_plan *plan, materials *out,
-                    report *r);
+/* Of the options count model, facets and area_lights; PREVIEW_MODEL_AUTO: for each material the model that shows what
+ * it asks for, see scene_model_of. plan: what is left out; NULL: all is as the scene asks, and warnings say what a
+ * material asks for and its model does not render. */
+bool materials_make(const scene *s, const preview_options *o, const glint_plan *plan, materials *out, report *r);
 void materials_free(materials *m);
 
 /* The model that a layer of a material gets without a plan. */

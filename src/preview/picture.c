@@ -34,12 +34,27 @@ bool preview_stage_open(const scene *s, const preview_options *options, preview_
     return true;
 }
 
+bool preview_stage_change(preview_stage *s, const preview_change *change, const preview_options *options, report *r)
+{
+    return stage_check_options(options, r) && stage_change(&s->stage, change, options, r);
+}
+
 void preview_stage_close(preview_stage *s)
 {
     if (s == NULL)
         return;
     stage_take_down(&s->stage);
     free(s);
+}
+
+bool preview_stage_plan(const preview_stage *s, const preview_options *options, glint_plan **plan, report *r)
+{
+    view v = { 0 };
+    *plan = NULL;
+    const bool done =
+        stage_check_options(options, r) && view_set_up(&v, &s->stage, options, r) && view_plan(&v, options, plan, r);
+    view_take_down(&v);
+    return done;
 }
 
 bool preview_picture_open(const preview_stage *s, const preview_options *options, preview_picture **out, report *r)

@@ -13,7 +13,7 @@ bool planned_make(planned *p, const preview_options *options, world *w, report *
     survey_free(&seen);
     if (result != GLINT_OK)
         return report_error(r, "preview: no plan: %s", message[0] != '\0' ? message : glint_result_text(result));
-    const bool made = materials_make(w->shader.scene, options->model, options->facets, p->plan, &p->materials, r);
+    const bool made = materials_make(w->shader.scene, options, p->plan, &p->materials, r);
     w->shader.materials = &p->materials;
     w->bounces = (int)glint_plan_result(p->plan).bounces;
     if (w->bounces == 0)

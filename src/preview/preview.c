@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "preview/choose_lights.h"
 #include "preview/rig.h"
 #include "preview/stage.h"
 #include "preview/tiles.h"
@@ -57,7 +58,7 @@ static float opacity_at(const void *user, const trace_hit *at)
     return shade_opacity(&st->shader, &st->geometry, at);
 }
 
-static bool set_environment(stage *st, const preview_options *o, report *r)
+bool stage_set_environment(stage *st, const preview_options *o, report *r)
 {
     const scene_environment *const own = &st->scene->environment;
     preview_environment from = { .map = NULL };
@@ -97,7 +98,10 @@ static bool set_lights(view *v, const stage *st, const preview_options *o, const
         v->lights[v->world.light_count++] = light_make(&from[i]);
     for (int i = 0; i < st->environment.sun_count; ++i)
         v->lights[v->world.light_count++] = light_make(&st->environment.suns[i]);
-    return true;
+    if (v->world.light_count <= MOST_LIGHTS)
+        return true;
+    v->world.light_tree = &v->light_tree;
+    return light_tree_make(v->lights, v->world.light_count, &v->light_tree, r);
 }
 
 static bool is_blended(const scene *s)
@@ -124,8 +128,8 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
         return false;
     const double loaded = now_s();
     st->shader = (shader){ s, &st->materials, st->textures, NULL };
-    if (!shader_open(&st->shader, r) || !set_environment(st, o, r) ||
-        !materials_make(s, o->model, o->facets, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
+    if (!shader_open(&st->shader, r) || !stage_set_environment(st, o, r) ||
+        !materials_make(s, o, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
         !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
@@ -177,7 +181,18 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
 void view_take_down(view *v)
 {
     free(v->lights);
+    light_tree_free(&v->light_tree);
     planned_free(&v->planned);
+}
+
+bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r)
+{
+    /* A view that leaves nothing out has not been looked at. */
+    if (v->planned.plan == NULL && !planned_make(&v->planned, o, &v->world, r))
+        return false;
+    *plan = v->planned.plan;
+    v->planned.plan = NULL;
+    return true;
 }
 
 static unsigned default_facet_limit(void)
@@ -249,15 +264,8 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
     stage st = { 0 };
     view v = { 0 };
     *plan = NULL;
-    bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
-              view_set_up(&v, &st, options, r);
-    /* A view that leaves nothing out has not been looked at. */
-    if (ok && v.planned.plan == NULL)
-        ok = planned_make(&v.planned, options, &v.world, r);
-    if (ok) {
-        *plan = v.planned.plan;
-        v.planned.plan = NULL;
-    }
+    const bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+                    view_set_up(&v, &st, options, r) && view_plan(&v, options, plan, r);
     view_take_down(&v);
     stage_take_down(&st);
     return ok;

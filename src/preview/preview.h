@@ -49,6 +49,7 @@ typedef struct preview_options {
     const preview_environment *environment; /* in place of any sky; NULL: that of the scene, if it has one */
     double accuracy; /* [0, 1], the error that a picture may have for speed: relative, root mean square over pixels,
                         against accuracy 0, which leaves nothing out. docs/plan.md */
+    glint_area_light_method area_lights; /* of accuracy 0; else the plan chooses */
     /* From the calling thread, before the first ray of the picture; plan is NULL for accuracy 0. It dies with the
      * render. */
     void (*planned)(const glint_plan *plan, void *user);
@@ -57,7 +58,7 @@ typedef struct preview_options {
 #define PREVIEW_OPTIONS_INIT                                                                                           \
     {                                                                                                                  \
         sizeof(preview_options), 1280, 720, 0, 0, 0, 0, 16, 1, 0, 0, PREVIEW_MODEL_AUTO, PREVIEW_FACETS_OWN, 0, false, \
-            0, 0, 0, 0, false, 0, 0.0, 0                                                                               \
+            0, 0, 0, 0, false, 0, 0.0, GLINT_AREA_LIGHT_EXACT, 0                                                       \
     }
 
 typedef struct preview_statistics {
@@ -89,7 +90,8 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
 
 /* ---- many pictures of one scene, and pictures that grow ---- */
 
-/* A scene made ready for rays: of the options count model, facets, environment and sky. */
+/* A scene made ready for rays: of the options count model, facets, area_lights,
+ * environment and sky. */
 typedef struct preview_stage preview_stage;
 
 /* The scene and the environment's map must outlive the stage. On failure *out is NULL. */
@@ -97,12 +99,28 @@ bool preview_stage_open(const scene *s, const preview_options *options, preview_
 /* NULL is allowed. Its pictures must be closed before. */
 void preview_stage_close(preview_stage *stage);
 
+/* What a stage makes anew after its caller has put something else into the scene: meshes and instances stay, and with
+ * them the tree. Lights need nothing. */
+typedef struct preview_change {
+    const scene_material *before; /* NULL, or the materials that the scene had, as many as now */
+    bool images;                  /* the scene has other images */
+    bool environment;             /* that of the options is another one */
+} preview_change;
+
+/* Of the options counts what preview_stage_open says. No picture of the stage may be open. On failure the stage is as
+ * it was before, and the scene must become so again. */
+bool preview_stage_change(preview_stage *stage, const preview_change *change, const preview_options *options,
+                          report *r);
+
+/* As preview_plan, of a stage that stands. */
+bool preview_stage_plan(const preview_stage *stage, const preview_options *options, glint_plan **plan, report *r);
+
 /* One picture under way. Any number may be open on a stage, each in a thread of its own. */
 typedef struct preview_picture preview_picture;
 
-/* Of the options counts all but model, facets and environment, which are the stage's; sky and camera are copied, and
- * cancel must outlive the picture. spp is the number of samples in the end: it decides how large the footprint of each
- * is. On failure *out is NULL. */
+/* Of the options counts all but model, facets, area_lights and environment, which are the stage's; sky and camera are
+ * copied, and cancel must outlive the picture. spp is the number of samples in the end: it decides how large the
+ * footprint of each is. On failure *out is NULL. */
 bool preview_picture_open(const preview_stage *stage, const preview_options *options, preview_picture **out, report *r);
 /* Adds samples to every pixel until it has as many as are asked for, [1, spp]. The picture then is, bit for bit, that
  * of any other way to the same number; with spp samples it is that of preview_render.

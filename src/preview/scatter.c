@@ -112,27 +112,34 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 
 /* ---- lights as shapes ---- */
 
-/* A cap takes the distribution as even over the half vectors that light the viewer. Across the plane of reflection they
- * spread by g = sine / (2 h.wi); a highlight of GGX is then too bright by (g / alpha)^2 in its middle, where the mean
- * of D over a disk of slopes of radius g is D / (1 + (g / alpha)^2), one of Beckmann by half of that. At this quotient
- * that is 1 %. */
-#define WIDE_FOR_LOBE 0.1
-/* A light of a smaller sine is a spark in any lacquer, and a cap is three times as cheap. Taste: two degrees across. */
-#define LEAST_SHAPE 0.02
+/* A cap takes the distribution as even over the half vectors that light the viewer. Their slopes over the roughness
+ * spread by g = sine / (2 h.wi (n.h)^2 alpha) around s, and the mean of a distribution over a disk of that radius
+ * differs by g^2 / 8 of its Laplacian: of GGX, D = 1 / (1 + s^2)^2, by g^2 |2 s^2 - 1| / (1 + s^2)^2 of itself, which
+ * is g^2 in the middle of a highlight and 2 g^2 / s^2 far from it. So a real sun is a shape in the highlight of a
+ * lacquer, and a cap wherever else, at a third of the cost. A Beckmann lobe is off by half of that in its middle; by
+ * more in its tail, but by less than that of what the middle is. */
+#define MOST_CAP_ERROR 0.01
+
+static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
+{
+    const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
+                        (double)local[2] + (double)layer->wo[2]);
+    const double length = fmax(v3_length(sum), 2e-3), h_dot_wi = 0.5 * length;
+    const double cosine = fmax(sum.z / length, 1e-3);
+    const double x = sum.x / (length * cosine * (double)layer->surface.alpha_x);
+    const double y = sum.y / (length * cosine * (double)layer->surface.alpha_y);
+    const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
+    const double g = sine / (2.0 * h_dot_wi * cosine * cosine * alpha), s2 = x * x + y * y;
+    /* More than |2 s^2 - 1|, which vanishes where the next term does not. */
+    return g * g * (1.0 + 2.0 * s2) > MOST_CAP_ERROR * (1.0 + s2) * (1.0 + s2);
+}
 
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
 {
     for (int i = 0; i < p->layer_count; ++i) {
-        const shade_layer *const layer = &p->layers[i];
         float local[3];
-        shade_to_local(layer, wi, local);
-        if (fabs((double)local[2]) < sine)
-            return true;
-        const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
-                            (double)local[2] + (double)layer->wo[2]);
-        const double h_dot_wi = fmax(0.5 * v3_length(sum), 1e-3);
-        const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
-        if (sine > LEAST_SHAPE && sine > WIDE_FOR_LOBE * 2.0 * h_dot_wi * alpha)
+        shade_to_local(&p->layers[i], wi, local);
+        if (fabs((double)local[2]) < sine || cap_is_off(&p->layers[i], local, sine))
             return true;
     }
     return false;

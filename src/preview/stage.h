@@ -22,16 +22,24 @@ typedef struct stage {
 bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r);
 void stage_take_down(stage *st);
 
+/* See preview_stage_change. */
+bool stage_change(stage *st, const preview_change *change, const preview_options *o, report *r);
+/* What surrounds the scene; has_environment says whether there is a map. */
+bool stage_set_environment(stage *st, const preview_options *o, report *r);
+
 typedef struct view {
     camera camera;
     light *lights;
-    planned planned; /* where the options leave something out */
+    light_tree light_tree; /* of many lights */
+    planned planned;       /* where the options leave something out */
     world world;
 } view;
 
 /* The view may not move either. */
 bool view_set_up(view *v, const stage *st, const preview_options *o, report *r);
 void view_take_down(view *v);
+/* The plan of a view, made for this where the view was set up without one; the caller destroys it. */
+bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r);
 
 bool stage_check_options(const preview_options *o, report *r);
 /* An error when the explicit model met more facets than it visits. */

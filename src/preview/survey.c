@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "preview/choose_lights.h"
 #include "preview/direct.h"
 #include "preview/hash.h"
 #include "preview/sampler.h"
@@ -73,6 +74,19 @@ static double look_at_samples(tally *t, int x, int y)
 
 /* ---- lights at the first surface ---- */
 
+/* The pair of a material and a light, empty when it is seen for the first time. */
+static glint_plan_pair *pair_of(tally *t, int material, int index)
+{
+    uint32_t *const known = &t->out->pair_of[(size_t)material * (size_t)t->light_count + (size_t)index];
+    if (*known == 0U) {
+        glint_plan_pair *const pair = &t->out->pairs[t->out->summary.pair_count++];
+        pair->material = (uint32_t)material;
+        pair->light = (uint32_t)index;
+        *known = t->out->summary.pair_count;
+    }
+    return &t->out->pairs[*known - 1U];
+}
+
 /* What one light brings there; index light_count of the world: its surroundings. */
 static radiance look_at_light(const world *w, int index, bool shadowed, const vertex *v, const sampler *random,
                               direct_facets *facets, ray_counts *counts)
@@ -101,11 +115,13 @@ static bool is_shape(const world *w, int index, const vertex *v)
            shade_tells_shape(&v->point, view.wi, view.sine);
 }
 
-static void note_light(tally *t, int index, const vertex *v, const sampler *random, double pixel)
+/* Of many lights a render chooses some, and we look at those: as often as it evaluates them, each for those that it
+ * stands for. */
+static void note_light(tally *t, int index, double probability, const vertex *v, const sampler *random, double pixel)
 {
     const world *const w = t->world;
     glint_plan_light *const to = &t->out->lights[index];
-    glint_plan_pair *const pair = &t->out->pairs[v->hit.mesh->material * t->light_count + index];
+    glint_plan_pair *const pair = pair_of(t, v->hit.mesh->material, index);
     direct_facets facets = { 0 }, unused = { 0 };
     ray_counts counts = { 0 }, none = { 0 };
     const radiance seen = look_at_light(w, index, true, v, random, &facets, &counts);
@@ -122,7 +138,7 @@ static void note_light(tally *t, int index, const vertex *v, const sampler *rand
         return;
     const double tiles = (double)w->glint_side * (double)w->glint_side, share = level(seen.smooth) / pixel;
     const uint32_t bin = glint_plan_bin((float)((double)facets.count * tiles * (double)facets.lit_probability));
-    pair->share[bin] += (float)(share * share);
+    pair->share[bin] += (float)(share * share / probability);
     pair->rate[bin] += (float)counts.glint_evals;
 }
 
@@ -149,6 +165,15 @@ static void note_surface(tally *t, const vertex *v)
     }
 }
 
+static int lights_of_pixel(const world *w, const vertex *v, const sampler *random, chosen_light lights[MOST_LIGHTS])
+{
+    if (w->light_count > MOST_LIGHTS)
+        return lights_choose(w->light_tree, &v->point, v->hit.position, random, DIM_SURVEY + 2U, lights);
+    for (int i = 0; i < w->light_count; ++i)
+        lights[i] = (chosen_light){ i, 1.0F };
+    return w->light_count;
+}
+
 static void look_at_pixel(tally *t, int x, int y)
 {
     vertex v;
@@ -158,8 +183,14 @@ static void look_at_pixel(tally *t, int x, int y)
         return;
     const sampler random = sampler_make(x, y, 0, t->world->seed);
     note_surface(t, &v);
-    for (int i = 0; i < t->light_count && v.point.layer_count > 0; ++i)
-        note_light(t, i, &v, &random, pixel);
+    if (v.point.layer_count == 0)
+        return;
+    chosen_light lights[MOST_LIGHTS];
+    const int count = lights_of_pixel(t->world, &v, &random, lights);
+    for (int i = 0; i < count; ++i)
+        note_light(t, lights[i].index, (double)lights[i].probability, &v, &random, pixel);
+    if (t->light_count > t->world->light_count)
+        note_light(t, t->world->light_count, 1.0, &v, &random, pixel);
 }
 
 /* ---- the summary ---- */
@@ -231,7 +262,8 @@ static void begin_surroundings(survey *out, const world *w)
                                                                   : (uint32_t)w->emitters->count };
 }
 
-static bool begin(survey *out, const world *w, const preview_options *o, int light_count, report *r)
+/* most_pairs: that can be seen. */
+static bool begin(survey *out, const world *w, const preview_options *o, int light_count, size_t most_pairs, report *r)
 {
     const scene *const s = w->shader.scene;
     const size_t material_count = (size_t)s->material_count + 1U, lights = (size_t)light_count + 1U;
@@ -240,9 +272,10 @@ static bool begin(survey *out, const world *w, const preview_options *o, int lig
     out->materials = calloc(material_count, sizeof *out->materials);
     out->lights = calloc(lights, sizeof *out->lights);
     out->light_names = calloc(lights, sizeof *out->light_names);
-    out->pairs = calloc(material_count * lights, sizeof *out->pairs);
+    out->pairs = calloc(most_pairs, sizeof *out->pairs);
+    out->pair_of = calloc(material_count * lights, sizeof *out->pair_of);
     if (out->options == NULL || out->materials == NULL || out->lights == NULL || out->light_names == NULL ||
-        out->pairs == NULL) {
+        out->pairs == NULL || out->pair_of == NULL) {
         survey_free(out);
         return report_error(r, "no memory to look at %zu materials under %zu lights", material_count, lights);
     }
@@ -252,17 +285,23 @@ static bool begin(survey *out, const world *w, const preview_options *o, int lig
     return true;
 }
 
-/* Drops pairs that were not seen, and turns sums into means. */
+/* By material, then by light. */
+static int compare_pairs(const void *a, const void *b)
+{
+    const glint_plan_pair *const x = a, *const y = b;
+    return x->material != y->material ? (x->material > y->material) - (x->material < y->material)
+                                      : (x->light > y->light) - (x->light < y->light);
+}
+
+/* Drops pairs under which nothing was evaluated, and turns sums into means. */
 static void end_pairs(survey *s, const tally *t)
 {
     const float inverse = 1.0F / (float)t->pixels;
     uint32_t kept = 0;
-    for (int i = 0; i < t->world->shader.scene->material_count * t->light_count; ++i) {
+    for (uint32_t i = 0; i < s->summary.pair_count; ++i) {
         glint_plan_pair pair = s->pairs[i];
         if (!(pair.seen > 0.0F))
             continue;
-        pair.material = (uint32_t)(i / t->light_count);
-        pair.light = (uint32_t)(i % t->light_count);
         pair.seen *= inverse;
         for (int b = 0; b < GLINT_PLAN_BINS; ++b) {
             pair.share[b] *= inverse;
@@ -271,6 +310,7 @@ static void end_pairs(survey *s, const tally *t)
         s->pairs[kept++] = pair;
     }
     s->summary.pair_count = kept;
+    qsort(s->pairs, kept, sizeof *s->pairs, compare_pairs);
 }
 
 static void end(survey *s, const tally *t, const preview_options *o)
@@ -312,11 +352,11 @@ bool survey_make(const world *w, const preview_options *o, survey *out, report *
     world direct = *w;
     tally t = { .world = w, .direct = &direct, .out = out, .light_count = w->light_count + has_surroundings(w) };
     int columns, rows;
-    if (!begin(out, w, o, t.light_count, r))
+    choose_grid(o, &columns, &rows);
+    if (!begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
         return false;
     direct.bounces = 0;
     direct.emitters = NULL;
-    choose_grid(o, &columns, &rows);
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < columns; ++x) {
             const uint32_t jitter = hash_combine(hash_combine(hash_mix(1U), (uint32_t)x), (uint32_t)y);
@@ -336,5 +376,6 @@ void survey_free(survey *s)
     free(s->lights);
     free(s->light_names);
     free(s->pairs);
+    free(s->pair_of);
     *s = (survey){ 0 };
 }

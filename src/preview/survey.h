@@ -14,6 +14,7 @@ typedef struct survey {
     glint_plan_material *materials;
     glint_plan_light *lights; /* those of the world, then surroundings where there are any */
     glint_plan_pair *pairs;
+    uint32_t *pair_of; /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
     survey_name *light_names;
 } survey;
 

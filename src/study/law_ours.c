@@ -12,9 +12,7 @@ void LAW_OURS(float trials, float p, const law_source *source, float count[LAW_D
         u[i] = (vint)source->uniform[0][i];
         weight[i] = 1.0F;
     }
-    const vfloat dither[3] = { (float)(source->uniform[1][0] >> 8) * 0x1p-24F,
-                               (float)(source->uniform[1][1] >> 8) * 0x1p-24F,
-                               (float)(source->uniform[1][2] >> 8) * 0x1p-24F };
+    const vfloat dither = (float)(source->uniform[1][0] >> 8) * 0x1p-24F;
     const binomial_chance chance = binomial_chance_of(p);
-    binomial_weighted_draws(trials, &chance, u, weight, dither, count, (binomial_many){ 3, 4 });
+    binomial_weighted_sum(trials, &chance, u, weight, dither, count, (binomial_many){ LAW_DRAWS, LAW_DRAWS });
 }

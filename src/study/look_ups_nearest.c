@@ -16,21 +16,21 @@ static int heaviest(const vfloat *weight, int count)
 void look_up_nearest(const counting_points *points, size_t count, float *factor, float *facets)
 {
     for (size_t i = 0; i < count; i++) {
-        const counting_pixel pixel = counting_pixel_of(points, i);
-        const grid_shape shape = grid_shape_of(&pixel.ellipse);
-        grid_vertex vertex[GRID_COUNT];
-        vfloat share[GRID_COUNT], weight[GRID_CELLS], corners[4], dither;
-        vuint cell[GRID_CELLS];
+        grid_ellipse ellipse;
+        grid_point grid;
+        const counting_pixel pixel = counting_pixel_of(points, i, &ellipse);
+        grid_locate(points->u[i], points->v[i], &ellipse, points->seed[i], &grid);
+        const int first = GRID_CELLS * heaviest(grid.share, GRID_COUNT);
+        const vuint cell = grid.cell[first + heaviest(grid.weight + first, GRID_CELLS)];
+
         vint uniform[4];
-        grid_tetrahedron(&shape, vertex, share);
-        const int grid = heaviest(share, GRID_COUNT);
-        grid_cells(&vertex[grid], points->u[i], points->v[i], points->seed[i], cell, weight);
+        vfloat corners[4];
         const angular_lattice lattice = angular_locate(points->hx[i], points->hy[i], points->cap[i]);
-        angular_corners(&lattice, cell[heaviest(weight, GRID_CELLS)], 1.0F, uniform, corners, &dither);
+        const angular_place place = angular_place_of(&lattice, cell);
+        angular_corners(&place, cell, 1.0F, HASH_TOP, uniform, corners);
         const binomial_chance chance = binomial_chance_of(points->p[i]);
-        const float n = pixel.ellipse.area * pixel.density;
-        const float drawn = binomial_draw(n, &chance, uniform[heaviest(corners, 4)], dither);
-        factor[i] = drawn / (n * points->p[i]);
-        facets[i] = pixel.area * pixel.density;
+        const float drawn = binomial_draw(pixel.counted, &chance, uniform[heaviest(corners, 4)], angular_dither(cell));
+        factor[i] = drawn / (pixel.counted * points->p[i]);
+        facets[i] = pixel.facets;
     }
 }

@@ -1,8 +1,9 @@
 /* What one call of the library costs for each model and light, beside the smooth model: whole batches, with lobes,
  * lights and counts.
  *
- * bench/eval FILE.json [rounds]. Points come in groups of 16 neighbouring pixels that look alike, N p log-uniform in
- * .01 to 1000.
+ * bench/eval FILE.json [rounds]; bench/eval count CASE N: N batches of 1024 points of one case and nothing else, for
+ * batch_cost.sh to count instructions. Points come in groups of 16 neighbouring pixels that look alike, N p log-uniform
+ * in .01 to 1000.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -126,50 +127,78 @@ static void run(void *user)
         exit(1);
 }
 
+typedef struct bench_case {
+    const char *name;
+    glint_model model;
+    const glint_area_light *area_lights;
+    float color_variation, facet_alpha;
+    glint_distribution distribution;
+} bench_case;
+
+static const bench_case cases[] = {
+    { "smooth", GLINT_MODEL_SMOOTH, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "smooth, Beckmann", GLINT_MODEL_SMOOTH, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
+    { "smooth, sun", GLINT_MODEL_SMOOTH, all.sun, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "smooth, rectangle", GLINT_MODEL_SMOOTH, all.rectangle, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "counting", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "counting, Beckmann", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
+    { "counting, rough facets", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.01F, GLINT_DISTRIBUTION_GGX },
+    { "counting, coloured", GLINT_MODEL_COUNTING, NULL, 0.5F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "counting, sun", GLINT_MODEL_COUNTING, all.sun, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "counting, rectangle", GLINT_MODEL_COUNTING, all.rectangle, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "dictionary", GLINT_MODEL_DICTIONARY, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
+    { "dictionary, GGX", GLINT_MODEL_DICTIONARY, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+    { "example", GLINT_MODEL_EXAMPLE, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
+};
+enum { CASES = sizeof cases / sizeof cases[0] };
+
+/* Ends the program where a material cannot be made. */
+static runner runner_of(const bench_case *c)
+{
+    const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+    runner r = { .options = o, .area_lights = c->area_lights };
+    r.options.model = c->model;
+    r.options.distribution = c->distribution;
+    r.options.color_variation = c->color_variation;
+    r.options.facet_alpha = c->facet_alpha;
+    char message[200] = "";
+    if (glint_material_create(&r.options, &r.material, message, sizeof message) != GLINT_OK) {
+        fprintf(stderr, "bench: %s: %s\n", c->name, message);
+        exit(1);
+    }
+    return r;
+}
+
+/* False: there is no such case. */
+static int run_alone(const char *name, int batches)
+{
+    for (int i = 0; i < CASES; i++)
+        if (strcmp(cases[i].name, name) == 0) {
+            runner r = runner_of(&cases[i]);
+            fill();
+            for (int k = 0; k < batches; k++)
+                run(&r);
+            glint_material_destroy(r.material);
+            return 1;
+        }
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 4 && strcmp(argv[1], "count") == 0)
+        return run_alone(argv[2], atoi(argv[3])) ? 0 : 1;
     const int rounds = argc > 2 ? atoi(argv[2]) : 40;
     FILE *const json = argc > 1 ? fopen(argv[1], "w") : NULL;
     if (json == NULL || rounds < 1) {
         fprintf(stderr, "usage: %s FILE.json [ROUNDS]\n", argv[0]);
         return 2;
     }
-    static runner runners[16];
-    static racer racers[16];
-    const glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-    struct {
-        const char *name;
-        glint_model model;
-        const glint_area_light *area_lights;
-        float color_variation, facet_alpha;
-        glint_distribution distribution;
-    } const cases[] = {
-        { "smooth", GLINT_MODEL_SMOOTH, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "smooth, Beckmann", GLINT_MODEL_SMOOTH, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
-        { "smooth, sun", GLINT_MODEL_SMOOTH, all.sun, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "smooth, rectangle", GLINT_MODEL_SMOOTH, all.rectangle, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "counting", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "counting, Beckmann", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
-        { "counting, rough facets", GLINT_MODEL_COUNTING, NULL, 0.0F, 0.01F, GLINT_DISTRIBUTION_GGX },
-        { "counting, coloured", GLINT_MODEL_COUNTING, NULL, 0.5F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "counting, sun", GLINT_MODEL_COUNTING, all.sun, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "counting, rectangle", GLINT_MODEL_COUNTING, all.rectangle, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-        { "dictionary", GLINT_MODEL_DICTIONARY, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_BECKMANN },
-        { "example", GLINT_MODEL_EXAMPLE, NULL, 0.0F, 0.0F, GLINT_DISTRIBUTION_GGX },
-    };
-    enum { CASES = sizeof cases / sizeof cases[0] };
+    static runner runners[CASES];
+    static racer racers[CASES];
     fill();
     for (int i = 0; i < CASES; i++) {
-        runners[i] = (runner){ .options = o, .area_lights = cases[i].area_lights };
-        runners[i].options.model = cases[i].model;
-        runners[i].options.distribution = cases[i].distribution;
-        runners[i].options.color_variation = cases[i].color_variation;
-        runners[i].options.facet_alpha = cases[i].facet_alpha;
-        char message[200] = "";
-        if (glint_material_create(&runners[i].options, &runners[i].material, message, sizeof message) != GLINT_OK) {
-            fprintf(stderr, "bench: %s: %s\n", cases[i].name, message);
-            return 1;
-        }
+        runners[i] = runner_of(&cases[i]);
         racers[i] = (racer){ cases[i].name, run, &runners[i] };
     }
     race_result result[CASES];

@@ -6,12 +6,10 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "io/scene_file.h"
-#include "model/counting_kernel.h"
-#include "model/model.h"
+#include "lanes.h"
 #include "preview/stage.h"
 #include "preview/tiles.h"
 #include "race.h"
@@ -32,13 +30,6 @@ static void stop(const char *why)
     exit(1);
 }
 
-/* A counting material begins what it bakes with the kernel for many points. */
-static void hold_to_lanes(const glint_material *m, size_t lanes)
-{
-    if (m != NULL && strcmp(m->model->name, "counting") == 0)
-        *(counting_width *)m->baked = counting_widest(lanes);
-}
-
 static void open_frame(frame *f, const scene *s, int model, size_t lanes)
 {
     report r = { 0 };
@@ -54,8 +45,8 @@ static void open_frame(frame *f, const scene *s, int model, size_t lanes)
         !film_of_options(&f->options, &f->film, &r))
         stop(r.error);
     for (int i = 0; i < s->material_count; i++) {
-        hold_to_lanes(f->stage.materials.layers[i].base, lanes);
-        hold_to_lanes(f->stage.materials.layers[i].coat, lanes);
+        lanes_hold(f->stage.materials.layers[i].base, lanes);
+        lanes_hold(f->stage.materials.layers[i].coat, lanes);
     }
 }
 

@@ -1,9 +1,12 @@
 /* The counting kernel at every width of this machine against the method as published.
  *
  * bench/kernel FILE.json [rounds]. Every contestant's mean is checked, so that nothing wins by doing less.
+ * bench/kernel count LANES N: 1024 N points of the mix and nothing else, for batch_cost.sh to count instructions;
+ * LANES alone: one point at a time.
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "published_count.h"
 #include "race.h"
@@ -34,8 +37,30 @@ static double weighted_mean(const workload *w)
     return sum / weight;
 }
 
+/* False: the machine has no such width. */
+static int run_alone(const char *lanes, int thousands)
+{
+    static workload work;
+    const int is_alone = strcmp(lanes, "alone") == 0;
+    const counting_width width = is_alone ? counting_narrowest() : counting_widest((size_t)atoi(lanes));
+    if (!is_alone && width.lanes != (size_t)atoi(lanes))
+        return 0;
+    workload_fill(&work, &workload_kinds[0]);
+    for (int i = 0; i < thousands; i++) {
+        const counting_points *const p = &work.points;
+        const size_t at = (size_t)(i % (WORKLOAD_POINTS / 1024)) * 1024;
+        const counting_points part = { p->u + at,    p->v + at,    p->dudx + at,    p->dudy + at,
+                                       p->dvdx + at, p->dvdy + at, p->density + at, p->seed + at,
+                                       p->hx + at,   p->hy + at,   p->cap + at,     p->p + at };
+        width.kernel(&part, 1024, work.factor, work.facets);
+    }
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 4 && strcmp(argv[1], "count") == 0)
+        return run_alone(argv[2], atoi(argv[3])) ? 0 : 1;
     if (argc < 2) {
         fprintf(stderr, "usage: %s FILE.json [ROUNDS]\n", argv[0]);
         return 2;

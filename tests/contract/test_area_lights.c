@@ -138,6 +138,93 @@ static void fast_meets_its_quantiles(void **state)
     }
 }
 
+/* ---- no light is lost on the whole ---- */
+
+/* Sums over the lights of one cell of roughness and view. */
+typedef struct light_balance {
+    double fast, truth, squares; /* squares: of fast - truth */
+    int count;
+} light_balance;
+
+/* The fast integral over brute force, for light as a whole, and its standard error as a ratio of sums. */
+static double balance_of(const light_balance *b, double *error)
+{
+    const double ratio = b->fast / b->truth, off = b->fast - b->truth;
+    *error = sqrt(fmax(b->squares - off * off / b->count, 0.0)) / b->truth;
+    return ratio - 1.0;
+}
+
+enum { ROUGHNESSES = 3, VIEWS = 3 };
+
+static double smooth_of(const area_case *c, glint_area_light_method method)
+{
+    glint_material *m = material_of(c, GLINT_MODEL_COUNTING, method);
+    const glint_footprint f = { .dudx = 1e-3F, .dvdy = 1e-3F };
+    glint_value value;
+    glint_eval_area(m, NULL, &f, c->wo, &c->light, &value);
+    glint_material_destroy(m);
+    return (double)value.smooth[0];
+}
+
+/* Adds a light to the cell of its roughness and view until that has `each`. 0: it had. */
+static int weigh_light(light_balance all[2][ROUGHNESSES][VIEWS], const area_case *c, double fast, double truth,
+                       int each)
+{
+    const int r = (int)((c->roughness - 0.1) / 0.9 * ROUGHNESSES), v = (int)(c->view / (85.0 * PI / 180.0) * VIEWS);
+    light_balance *const b = &all[c->lobe.is_beckmann][r < ROUGHNESSES ? r : 2][v < VIEWS ? v : 2];
+    if (b->count >= each)
+        return 0;
+    b->fast += fast;
+    b->truth += truth;
+    b->squares += (fast - truth) * (fast - truth);
+    b->count++;
+    return 1;
+}
+
+/* Within `most` beyond four standard errors. */
+static int count_lost_light(light_balance all[2][ROUGHNESSES][VIEWS], const char *what, double most)
+{
+    int failed = 0;
+    for (int k = 0; k < 2; k++)
+        for (int r = 0; r < ROUGHNESSES; r++) {
+            printf("%s, %s, roughness %.1f to %.1f:", what, k ? "Beckmann" : "GGX", 0.1 + 0.3 * r, 0.4 + 0.3 * r);
+            for (int v = 0; v < VIEWS; v++) {
+                double error;
+                const double bias = balance_of(&all[k][r][v], &error);
+                printf("  %+.4f +- %.4f", bias, error);
+                failed += fabs(bias) > most + 4.0 * error;
+            }
+            printf("   expected 0 +- %g\n", most);
+        }
+    return failed;
+}
+
+/* Errors of single lights have either sign; a picture is off by what they have in common. At most half a percent, half
+ * of what the exact integral of a single light may be off, beyond what chance explains. Brute force takes too long for
+ * enough lights to tell: it weighs the exact integral, on fewer, and that the fast one. */
+static void fast_keeps_the_light_of_all_lights(void **state)
+{
+    (void)state;
+    enum { FEW = 12, MANY = 1500, CELLS = 2 * ROUGHNESSES * VIEWS };
+    static light_balance few[2][ROUGHNESSES][VIEWS], many[2][ROUGHNESSES][VIEWS];
+    uint64_t random = 38;
+    for (int left = CELLS * FEW; left > 0;) {
+        const area_case c = area_case_of(&random, 0);
+        const area_truth truth = area_truth_of(&c.lobe, c.wo, &c.light, 300);
+        if (area_is_lit(&truth))
+            left -= weigh_light(few, &c, smooth_of(&c, GLINT_AREA_LIGHT_EXACT), truth.specular, FEW);
+    }
+    for (int left = CELLS * MANY; left > 0;) {
+        const area_case c = area_case_of(&random, 0);
+        const double truth = smooth_of(&c, GLINT_AREA_LIGHT_EXACT);
+        if (truth > 1e-6)
+            left -= weigh_light(many, &c, smooth_of(&c, GLINT_AREA_LIGHT_FAST), truth, MANY);
+    }
+    int failed = count_lost_light(few, "exact over brute force", 0.005);
+    failed += count_lost_light(many, "fast over exact", 0.005);
+    assert_int_equal(failed, 0);
+}
+
 /* ---- what holds for every light ---- */
 
 static void base_is_the_exact_form_factor(void **state)
@@ -380,6 +467,7 @@ int main(void)
         cmocka_unit_test(a_rim_through_the_peak_takes_half_of_the_lobe),
         cmocka_unit_test(exact_is_within_one_percent_everywhere),
         cmocka_unit_test(fast_meets_its_quantiles),
+        cmocka_unit_test(fast_keeps_the_light_of_all_lights),
         cmocka_unit_test(base_is_the_exact_form_factor),
         cmocka_unit_test(small_lights_are_points),
         cmocka_unit_test(one_sided_lights_shine_to_one_side),

@@ -172,6 +172,45 @@ static void lights_layers_and_odd_transforms_stay(void **state)
     scene_free(&after);
 }
 
+/* Six faces of which no two are alike, two levels of which the second is left out, and faces in another order than
+ * their images. */
+static void surroundings_stay(void **state)
+{
+    (void)state;
+    enum { SIDE = 8 };
+    for (int face = 0; face < 6; ++face) {
+        uint16_t rgb[SIDE * SIDE * 3];
+        for (int i = 0; i < SIDE * SIDE; ++i)
+            for (int c = 0; c < 3; ++c)
+                rgb[3 * i + c] = (uint16_t)(40 * (face + 1) + i * (c + 1) % 16);
+        char name[16];
+        snprintf(name, sizeof name, "%c.png", 'a' + face);
+        report r = { 0 };
+        assert_true(image_write_data_png(name, SIDE, SIDE, 8, rgb, &r));
+    }
+    file_write("data.bin", triangles, sizeof triangles);
+    file_write_text(
+        "studio.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"EXT_lights_image_based\",\"GLINT_materials_glint\"],"
+        "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"},{\"uri\":\"c.png\"},{\"uri\":\"d.png\"},{\"uri\":"
+        "\"e.png\"},{\"uri\":\"f.png\"}],\"extensions\":{\"EXT_lights_image_based\":{\"lights\":[{\"name\":\"studio\","
+        "\"intensity\":2.5,\"rotation\":[0,0.6,0,0.8],\"specularImageSize\":8,\"specularImages\":[[5,3,4,2,1,0],"
+        "[0,0,0,0,0,0]],\"irradianceCoefficients\":[[1,1,1],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],"
+        "[0,0,0]]}]}},\"scenes\":[{\"nodes\":[0],\"extensions\":{\"EXT_lights_image_based\":{\"light\":0}}}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"materials\":[{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.3},\"extensions\":{\"GLINT_materials_glint\":{"
+        "\"glintDensity\":1e4,\"glintSpace\":\"object\"}}}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+        "\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":"
+        "36}],\"buffers\":[{\"byteLength\":72,\"uri\":\"data.bin\"}]}");
+    glint("render", "studio.gltf", "-o", "before.exr", "--size", "64x48", "--spp", "2");
+    static const char *const outputs[] = { "new.glb", "new.gltf" };
+    for (size_t i = 0; i < 2; ++i) {
+        glint("export", "gltf", "studio.gltf", "-o", outputs[i], "--new");
+        glint("render", outputs[i], "-o", "after.exr", "--size", "64x48", "--spp", "2");
+        assert_same_pictures("before.exr", "after.exr", outputs[i]);
+    }
+}
+
 static void the_same_input_gives_the_same_bytes(void **state)
 {
     (void)state;
@@ -200,11 +239,9 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, workplace_enter, workplace_leave)
     const struct CMUnitTest tests[] = {
-        TEST(new_files_render_as_the_old_ones),
-        TEST(materials_of_the_file_stay),
-        TEST(lights_layers_and_odd_transforms_stay),
-        TEST(the_same_input_gives_the_same_bytes),
-        TEST(what_cannot_be_is_refused),
+        TEST(new_files_render_as_the_old_ones),      TEST(materials_of_the_file_stay),
+        TEST(lights_layers_and_odd_transforms_stay), TEST(surroundings_stay),
+        TEST(the_same_input_gives_the_same_bytes),   TEST(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests_name("export_new", tests, NULL, NULL);
 }

@@ -8,8 +8,8 @@ mkdir -p "$2/cycles"
 folder=$(realpath "$2/cycles")
 status=0
 for light in sun rect; do
-    # The rim of a sphere has far more flakes in a pixel than its middle, and takes samples for them.
-    for shape in "plane 2048" "sphere 8192"; do
+    # A sphere has far more flakes in a pixel than the plane, and takes samples for them.
+    for shape in "plane 2048" "sphere 16384"; do
         for distribution in ggx beckmann; do
             echo "$shape samples, $distribution, $light:"
             # shellcheck disable=SC2086

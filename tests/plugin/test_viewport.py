@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The viewport of the engine in a window: it fills in, follows a change of the flakes, drops what it does for a turn of the view,
-and leaves no thread behind.
+"""The viewport of the engine in a window: it fills in, follows a change of the flakes and its undoing, drops what it does for a
+turn of the view, and leaves no thread behind.
 
     xvfb-run -a -s "-screen 0 800x600x24" blender --factory-startup -P test_viewport.py -- FOLDER
 
@@ -10,31 +10,22 @@ Writes FOLDER/viewport.png, a picture of the window, and ends with exit code 0 o
 import os
 import sys
 import threading
-import time
-import traceback
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
 import bpy
 import numpy
 
+import window_case
 from blender_case import folder
-# Before the window opens.
-bpy.context.preferences.view.show_splash = False
-
 from engine_case import add_camera, add_light, add_plane, flakes, matte
+from window_case import area, override, shoot, wait_for
 
-GIVE_UP_S = 150.0
 MANY_SAMPLES = 4096  # of this view they take minutes
 
 
-def area():
-    window = bpy.context.window_manager.windows[0]
-    return window, next(a for a in window.screen.areas if a.type == "VIEW_3D")
-
-
-# Every session that the engine began, the newest last.
-sessions = []
+# Every session that the engine began, the newest last; whether they made a scene or changed theirs.
+sessions, made = [], []
 
 
 def watch():
@@ -46,21 +37,21 @@ def watch():
             sessions.append(self)
             super().__init__(redraw)
 
-    engine.Session = Watched
+    class Counted(viewport.Scene):
+        def __init__(self, description):
+            made.append("scene")
+            super().__init__(description)
+
+        def change(self, description, parts):
+            made.append("change")
+            return super().change(description, parts)
+
+    engine.Session, viewport.Scene = Watched, Counted
 
 
 def frame():
     """The picture in the viewport once it is done, or None."""
     return sessions[-1].frame if sessions and sessions[-1].is_done() else None
-
-
-def wait_for(what, condition):
-    """Gives Blender time until the condition holds."""
-    end = time.monotonic() + GIVE_UP_S
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited in vain for {what}")
-        yield 0.1
 
 
 def set_up():
@@ -82,7 +73,7 @@ def set_up():
     scene.camera, scene.glint.preview_samples = camera, 4
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.3, 0.5, 1.0)
     scene.render.engine = "GLINT"
-    window, view = area()
+    view = area("VIEW_3D")
     view.spaces[0].region_3d.view_perspective = "CAMERA"
     view.spaces[0].shading.type = "RENDERED"
     return ball
@@ -96,21 +87,34 @@ def script():
     assert frame().samples == 4
 
     path = os.path.join(folder(), "viewport.png")
-    window, view = area()
+    view = area("VIEW_3D")
     yield 0.5
-    with bpy.context.temp_override(window=window, area=view):
-        bpy.ops.screen.screenshot(filepath=path)
+    shoot(path, view)
     shot = bpy.data.images.load(path)
     pixels = numpy.array(shot.pixels[:]).reshape(-1, 4)
     assert pixels[:, :3].std() > 0.05, "the window shows one colour"
 
-    # A property is another picture.
-    glint = ball.data.materials[0].glint
-    glint.seed = 7
-    ball.data.materials[0].update_tag()  # which a click in the panel does by itself
-    yield from wait_for("the picture of another seed", lambda: frame() is not None and not same(frame().pixels, first))
+    yield from change_and_undo(view, first)
     yield from turn_while_it_works(view)
     yield from leave(view)
+
+
+def change_and_undo(view, first):
+    """A property is another picture, and undone it is the old one."""
+    bpy.ops.ed.undo_push(message="before")
+    glint = bpy.data.materials["ball"].glint
+    glint.seed = 7
+    bpy.data.materials["ball"].update_tag()  # which a click in the panel does by itself
+    bpy.ops.ed.undo_push(message="another seed")
+    yield from wait_for("the picture of another seed", lambda: frame() is not None and not same(frame().pixels, first))
+    assert made == ["scene", "change"], made
+    other = frame().pixels.copy()
+    for operator, expected in ((bpy.ops.ed.undo, first), (bpy.ops.ed.redo, other), (bpy.ops.ed.undo, first)):
+        with bpy.context.temp_override(**override(view)):
+            assert operator() == {"FINISHED"}
+        yield from wait_for(f"the picture after {operator.idname()}",
+                            lambda expected=expected: frame() is not None and same(frame().pixels, expected))
+    assert bpy.data.materials["ball"].glint.seed == 0  # undo makes data anew
 
 
 def turn_while_it_works(view):
@@ -140,17 +144,4 @@ def same(a, b):
     return a.shape == b.shape and numpy.array_equal(a, b)
 
 
-def step():
-    try:
-        return next(steps)
-    except StopIteration:
-        print("viewport: ok", flush=True)
-        os._exit(0)
-    except BaseException:
-        traceback.print_exc()
-        sys.stderr.flush()
-        os._exit(3)
-
-
-steps = script()
-bpy.app.timers.register(step, first_interval=1.0)
+window_case.run("viewport", script)

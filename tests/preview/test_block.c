@@ -60,9 +60,9 @@ static void a_block_has_the_samples_of_its_pixels(void **state)
 {
     (void)state;
     for (int i = 0; i < plan_case_count(); ++i) {
-        scene_camera camera;
+        scene_camera from;
         preview_options o;
-        scene s = plan_case(i, &camera, &o);
+        scene s = plan_case(i, &from, &o);
         o.spp = 2;
         o.accuracy = i % 2 == 0 ? 0.0 : 0.1;
         compare(&s, &o, plan_case_name(i));

@@ -1,4 +1,5 @@
-/* libglint_preview.so as another program uses it: pictures that are known by hand, passes, failing input, no leaks. */
+/* libglint_preview.so as another program uses it: pictures that are known by hand, passes, threads, no leaks. */
+#include <malloc.h>
 #include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
@@ -8,110 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
-#include "preview/glint_preview.h"
-
-/* A square of 2 m in the plane y = 0, facing up, (s, t) from (0, 0) at (-1, -1) to (1, 1); two triangles. */
-static const float POSITIONS[12] = { -1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1 };
-static const float NORMALS[12] = { 0, 1, 0, 0, 2, 0, 0, 1, 0, 0, 1, 0 };
-static const float TEXCOORDS[8] = { 0, 0, 0, 1, 1, 1, 1, 0 };
-static const uint32_t INDICES[6] = { 0, 1, 2, 0, 2, 3 };
-static const float IDENTITY[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
-static const int32_t ZERO[1] = { 0 };
-
-/* Diffuse and nothing else: f = color / pi. */
-#define MATTE(color, more)                                                                                             \
-    "{\"pbrMetallicRoughness\": {\"baseColorFactor\": [" color ", 1], \"metallicFactor\": 0" more                      \
-    "}, \"extensions\": {\"KHR_materials_specular\": {\"specularFactor\": 0}}}"
-
-/* Everything that a scene of one square needs, with a sun straight above. */
-typedef struct square_scene {
-    glint_preview_mesh mesh;
-    glint_preview_light sun;
-    glint_preview_scene_options options;
-} square_scene;
-
-static void make_square(square_scene *s)
-{
-    s->mesh = (glint_preview_mesh)GLINT_PREVIEW_MESH_INIT;
-    s->mesh.vertex_count = 4;
-    s->mesh.triangle_count = 2;
-    s->mesh.positions = POSITIONS;
-    s->mesh.normals = NORMALS;
-    s->mesh.texcoords[0] = TEXCOORDS;
-    s->mesh.indices = INDICES;
-    s->sun = (glint_preview_light)GLINT_PREVIEW_LIGHT_INIT;
-    const float down[16] = { 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1 }; /* z points up, the light down */
-    memcpy(s->sun.to_world, down, sizeof down);
-    s->sun.intensity = 3.0F;
-    s->options = (glint_preview_scene_options)GLINT_PREVIEW_SCENE_OPTIONS_INIT;
-    s->options.materials = "{\"materials\": [" MATTE("0.5, 0.25, 0.125", "") "]}";
-    s->options.meshes = &s->mesh;
-    s->options.mesh_count = 1;
-    s->options.instance_count = 1;
-    s->options.instance_to_world = IDENTITY;
-    s->options.instance_mesh = ZERO;
-    s->options.lights = &s->sun;
-    s->options.light_count = 1;
-}
-
-/* Orthographic, 4 m above, looking down; sees a square of 2 half_size; x to the right, z downwards. */
-static glint_preview_camera from_above(float half_size)
-{
-    glint_preview_camera c = GLINT_PREVIEW_CAMERA_INIT;
-    const float to_world[16] = { 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 4, 0, 1 };
-    memcpy(c.to_world, to_world, sizeof to_world);
-    c.projection = GLINT_PREVIEW_ORTHOGRAPHIC;
-    c.left = c.bottom = -half_size;
-    c.right = c.top = half_size;
-    return c;
-}
-
-static glint_preview_picture_options small(const glint_preview_camera *camera)
-{
-    glint_preview_picture_options o = GLINT_PREVIEW_PICTURE_OPTIONS_INIT;
-    o.camera = camera;
-    o.width = o.height = 8;
-    o.samples = 4;
-    o.bounces = 0;
-    o.threads = 1;
-    return o;
-}
-
-static glint_preview_scene *create(const glint_preview_scene_options *o)
-{
-    glint_preview_scene *s;
-    char message[512];
-    if (glint_preview_scene_create(o, &s, message, sizeof message) != GLINT_PREVIEW_OK)
-        fail_msg("no scene: %s", message);
-    return s;
-}
-
-static glint_preview_picture *begin(const glint_preview_scene *s, const glint_preview_picture_options *o)
-{
-    glint_preview_picture *p;
-    char message[512];
-    if (glint_preview_picture_create(s, o, &p, message, sizeof message) != GLINT_PREVIEW_OK)
-        fail_msg("no picture: %s", message);
-    return p;
-}
-
-static void refine(glint_preview_picture *p, int32_t samples)
-{
-    char message[512];
-    if (glint_preview_picture_refine(p, samples, message, sizeof message) != GLINT_PREVIEW_OK)
-        fail_msg("not refined: %s", message);
-}
-
-static void get(const glint_preview_picture *p, int32_t pass, float *values, size_t count)
-{
-    char message[512];
-    if (glint_preview_picture_read(p, pass, 1, values, count, message, sizeof message) != GLINT_PREVIEW_OK)
-        fail_msg("not read: %s", message);
-}
+#include "caller.h"
 
 static void assert_relative(float value, double expected, double bound)
 {
@@ -268,10 +169,6 @@ static void a_shifted_window_sees_the_next_part_of_the_plane(void **state)
 
 /* ---- glints, passes and threads ---- */
 
-static const char GLITTER[] =
-    "{\"materials\": [{\"pbrMetallicRoughness\": {\"roughnessFactor\": 0.5}, \"extensions\": "
-    "{\"GLINT_materials_glint\": {\"glintFactor\": 1, \"glintDensity\": 2500, \"glintFacetRoughness\": 0.05}}}]}";
-
 static void flakes_are_counted_in_the_pass_for_it(void **state)
 {
     (void)state;
@@ -365,196 +262,44 @@ static void cancelling_from_another_thread_ends_soon_and_can_be_taken_back(void 
     glint_preview_scene_destroy(s);
 }
 
-/* ---- failing input ---- */
-
-static void refuse(const glint_preview_scene_options *o, const char *named)
+static glint_preview_result plan_of(const glint_preview_scene *s, float accuracy, char *text, size_t size)
 {
-    static char elsewhere;
-    glint_preview_scene *s = (void *)&elsewhere;
-    char message[512] = "";
-    assert_int_equal(glint_preview_scene_create(o, &s, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_null(s);
-    if (strstr(message, named) == NULL || strstr(message, "expected") == NULL)
-        fail_msg("\"%s\" does not say \"%s\" and what was expected", message, named);
+    const glint_preview_camera camera = from_above(0.8F);
+    glint_preview_picture_options o = small(&camera);
+    char message[256];
+    o.accuracy = accuracy;
+    const glint_preview_result result = glint_preview_plan(s, &o, text, size, message, sizeof message);
+    if (result != GLINT_PREVIEW_OK)
+        assert_non_null(strstr(message, "expected"));
+    return result;
 }
 
-static void meshes_that_make_no_sense_are_named(void **state)
+/* Under a sun of 23 degrees some 1 in 20 of 25 million facets a pixel is lit: they vary by a thousandth. */
+static void the_plan_says_what_a_budget_leaves_out(void **state)
 {
     (void)state;
     square_scene q;
-    float bad[12];
-    memcpy(bad, POSITIONS, sizeof bad);
-    bad[7] = NAN;
+    char text[4096];
     make_square(&q);
-    q.mesh.positions = bad;
-    q.mesh.name = "floor";
-    refuse(&q.options, "floor: /position/2");
-    bad[7] = INFINITY;
-    make_square(&q);
-    q.mesh.normals = bad;
-    refuse(&q.options, "meshes/0: /normal/2");
-    uint32_t far[6] = { 0, 1, 2, 0, 2, 4 };
-    make_square(&q);
-    q.mesh.indices = far;
-    refuse(&q.options, "/index/5: found 4");
-    const int32_t materials[2] = { 0, 1 };
-    make_square(&q);
-    q.mesh.materials = materials;
-    refuse(&q.options, "/material/1: found 1");
-    make_square(&q);
-    q.mesh.positions = NULL;
-    refuse(&q.options, "/position: found none");
-    make_square(&q);
-    q.mesh.size = 8;
-    refuse(&q.options, "meshes/0: its size is 8");
-    make_square(&q);
-    q.options.materials = NULL;
-    refuse(&q.options, "no material");
-}
-
-static void instances_lights_and_worlds_that_make_no_sense_are_named(void **state)
-{
-    (void)state;
-    square_scene q;
-    float matrix[16];
-    memcpy(matrix, IDENTITY, sizeof matrix);
-    matrix[12] = NAN;
-    make_square(&q);
-    q.options.instance_to_world = matrix;
-    refuse(&q.options, "instances/0: to_world");
-    const int32_t other[1] = { 1 };
-    make_square(&q);
-    q.options.instance_mesh = other;
-    refuse(&q.options, "instances/0: found mesh 1");
-    make_square(&q);
-    q.options.instance_mesh = NULL;
-    refuse(&q.options, "instance_mesh: found NULL");
-    make_square(&q);
-    q.sun.kind = 9;
-    refuse(&q.options, "lights/0: kind is 9");
-    make_square(&q);
-    q.sun.intensity = -1.0F;
-    refuse(&q.options, "lights/0: found -1");
-    make_square(&q);
-    q.sun.kind = GLINT_PREVIEW_LIGHT_SPOT;
-    q.sun.inner_cone_rad = 1.0F;
-    refuse(&q.options, "inner_cone_rad is 1");
-    make_square(&q);
-    float map[9] = { 0 };
-    q.options.world.map = map;
-    q.options.world.map_width = q.options.world.map_height = 3;
-    refuse(&q.options, "world: its map is 3 x 3");
-    make_square(&q);
-    q.options.model = 1000;
-    refuse(&q.options, "model is 1000");
-    make_square(&q);
-    q.options.size = 1;
-    refuse(&q.options, "options: its size is 1");
-}
-
-static void materials_and_images_that_make_no_sense_are_named(void **state)
-{
-    (void)state;
-    square_scene q;
-    make_square(&q);
-    q.options.materials = "{\"materials\": [";
-    glint_preview_scene *s;
-    char message[512];
-    assert_int_equal(glint_preview_scene_create(&q.options, &s, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_non_null(strstr(message, "materials: line 1, column 16: found text that is not JSON"));
-    q.options.materials = "[]";
-    refuse(&q.options, "expected an object");
-    q.options.materials = "{\"materials\": [{\"pbrMetallicRoughness\": {\"roughnessFactor\": 2}}]}";
-    refuse(&q.options, "/materials/0/pbrMetallicRoughness/roughnessFactor");
-    q.options.materials = "{\"materials\": [{}], \"textures\": [{\"source\": 0}]}";
-    refuse(&q.options, "/textures/0/source");
-    glint_preview_image image = GLINT_PREVIEW_IMAGE_INIT;
-    q.options.images = &image;
-    q.options.image_count = 1;
-    refuse(&q.options, "images/0: found none");
-    image.path = "/no/such/file.png";
-    q.options.materials = "{\"materials\": [{\"normalTexture\": {\"index\": 0}}], \"textures\": [{\"source\": 0}]}";
-    assert_int_equal(glint_preview_scene_create(&q.options, &s, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_non_null(strstr(message, "images/0"));
-}
-
-static void refuse_picture(const glint_preview_scene *s, const glint_preview_picture_options *o, const char *named)
-{
-    static char elsewhere;
-    glint_preview_picture *p = (void *)&elsewhere;
-    char message[512] = "";
-    assert_int_equal(glint_preview_picture_create(s, o, &p, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_null(p);
-    if (strstr(message, named) == NULL)
-        fail_msg("\"%s\" does not say \"%s\"", message, named);
-}
-
-static void pictures_that_make_no_sense_are_named(void **state)
-{
-    (void)state;
-    square_scene q;
-    make_square(&q);
+    q.sun.angular_diameter_rad = 0.4F;
+    q.options.materials = "{\"materials\": [" FLAKES("2.5e9") "]}";
     glint_preview_scene *const s = create(&q.options);
-    glint_preview_camera camera = from_above(1.0F);
-    glint_preview_picture_options o = small(NULL);
-    refuse_picture(s, &o, "camera: found none");
-    o = small(&camera);
-    o.width = 0;
-    refuse_picture(s, &o, "width is 0");
-    o = small(&camera);
-    o.samples = 100000;
-    refuse_picture(s, &o, "spp is 100000");
-    o = small(&camera);
-    o.part_width = 9;
-    o.part_height = 1;
-    refuse_picture(s, &o, "tile_width is 9");
-    o = small(&camera);
-    o.size = 3;
-    refuse_picture(s, &o, "its size is 3");
-    camera.right = camera.left;
-    o = small(&camera);
-    refuse_picture(s, &o, "expected left below right");
-    camera = from_above(1.0F);
-    camera.to_world[3] = NAN;
-    refuse_picture(s, &o, "camera: to_world");
-    camera = from_above(1.0F);
-    camera.far_m = camera.near_m = 1.0F;
-    refuse_picture(s, &o, "far_m");
-    camera = from_above(1.0F);
-    o.passes = 0;
-    glint_preview_picture *const p = begin(s, &o);
-    char message[512];
-    float values[256];
-    assert_int_equal(glint_preview_picture_read(p, GLINT_PREVIEW_DEPTH, 1, values, 64, message, sizeof message),
-                     GLINT_PREVIEW_BAD_INPUT);
-    assert_non_null(strstr(message, "passes was 0"));
-    assert_int_equal(glint_preview_picture_read(p, GLINT_PREVIEW_COMBINED, 1, values, 64, message, sizeof message),
-                     GLINT_PREVIEW_BAD_INPUT);
-    assert_non_null(strstr(message, "expected 256"));
-    assert_int_equal(glint_preview_picture_read(p, 7, 1, values, 64, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_int_equal(glint_preview_picture_refine(p, 5, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    glint_preview_picture_destroy(p);
+    assert_int_equal(plan_of(s, 0.0F, text, sizeof text), GLINT_PREVIEW_OK);
+    assert_non_null(strstr(text, "\tfacets\ton\tcounted\t"));
+    assert_int_equal(plan_of(s, 0.1F, text, sizeof text), GLINT_PREVIEW_OK);
+    assert_non_null(strstr(text, "\tfacets\toff\t"));
+    const size_t length = strlen(text);
+    assert_int_equal(text[length - 1], '\n');
+    text[0] = 'x';
+    assert_int_equal(plan_of(s, 0.1F, text, length), GLINT_PREVIEW_BAD_INPUT);
+    assert_int_equal(text[0], 'x'); /* what does not fit is not begun */
+    assert_int_equal(plan_of(s, 0.1F, text, length + 1), GLINT_PREVIEW_OK);
+    assert_int_equal(plan_of(s, 2.0F, text, sizeof text), GLINT_PREVIEW_BAD_INPUT);
+    assert_int_equal(glint_preview_plan(s, NULL, text, sizeof text, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
     glint_preview_scene_destroy(s);
 }
 
-static void nothing_at_all_is_an_answer_and_no_crash(void **state)
-{
-    (void)state;
-    glint_preview_scene *s;
-    glint_preview_picture *p;
-    char message[8];
-    assert_int_equal(glint_preview_scene_create(NULL, &s, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
-    assert_int_equal(strlen(message), 7); /* cut to its size */
-    assert_int_equal(glint_preview_scene_create(NULL, NULL, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
-    assert_int_equal(glint_preview_picture_create(NULL, NULL, &p, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
-    assert_int_equal(glint_preview_picture_refine(NULL, 1, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
-    assert_int_equal(glint_preview_picture_read(NULL, 0, 0, NULL, 0, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
-    glint_preview_picture_cancel(NULL, 1);
-    assert_true(glint_preview_picture_progress(NULL) == 0.0);
-    glint_preview_picture_destroy(NULL);
-    glint_preview_scene_destroy(NULL);
-    assert_string_equal(glint_preview_scene_warnings(NULL), "");
-}
+/* ---- versions and memory ---- */
 
 static void a_caller_can_check_that_it_speaks_the_same_language(void **state)
 {
@@ -565,8 +310,6 @@ static void a_caller_can_check_that_it_speaks_the_same_language(void **state)
     assert_int_equal(glint_preview_size_of("glint_preview_horse"), 0);
     assert_int_equal(glint_preview_size_of(NULL), 0);
 }
-
-/* ---- memory ---- */
 
 #define GRID 200 /* 200 x 200 squares: half a megabyte of positions, and more of anything else */
 
@@ -593,14 +336,11 @@ static void make_grid(grid *g)
     }
 }
 
-static double resident_mb(void)
+/* What the program has asked for and not given back, whatever the allocator keeps of it. */
+static double allocated_mb(void)
 {
-    unsigned long long pages = 0, resident = 0;
-    FILE *const file = fopen("/proc/self/statm", "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%llu %llu", &pages, &resident), 2);
-    fclose(file);
-    return (double)resident * (double)sysconf(_SC_PAGESIZE) / 1048576.0;
+    const struct mallinfo2 all = mallinfo2();
+    return (double)(all.uordblks + all.hblkhd) / 1048576.0;
 }
 
 /* A scene, a picture and a failure. */
@@ -626,8 +366,8 @@ static void use_the_library(const grid *g)
     refuse(&q.options, "model is 1000");
 }
 
-/* Had a round lost one of its arrays (.5 MB and more), 32 rounds would show 15 MB; less than that is allowed for the
- * allocator's own pieces. The sanitizers' own bookkeeping grows: there, their search for leaks is the test. */
+/* Had a round lost one of its arrays (.3 MB and more), 32 rounds would show 10 MB; a tenth of that is left to lists
+ * that grow once. Sanitizers have an allocator of their own: there, their search for leaks is the test. */
 static void scenes_and_pictures_leave_no_memory_behind(void **state)
 {
     (void)state;
@@ -638,12 +378,12 @@ static void scenes_and_pictures_leave_no_memory_behind(void **state)
     make_grid(&g);
     for (int i = 0; i < 4; ++i)
         use_the_library(&g);
-    const double before = resident_mb();
+    const double before = allocated_mb();
     for (int i = 0; i < 32; ++i)
         use_the_library(&g);
-    const double after = resident_mb();
-    if (!(after - before < 12.0))
-        fail_msg("32 scenes took %.1f MB and did not give them back", after - before);
+    const double after = allocated_mb();
+    if (!(after - before < 1.0))
+        fail_msg("32 scenes took %.2f MB and did not give them back", after - before);
 }
 
 int main(void)
@@ -657,11 +397,7 @@ int main(void)
         cmocka_unit_test(flakes_are_counted_in_the_pass_for_it),
         cmocka_unit_test(steps_of_any_size_give_the_same_bits),
         cmocka_unit_test(cancelling_from_another_thread_ends_soon_and_can_be_taken_back),
-        cmocka_unit_test(meshes_that_make_no_sense_are_named),
-        cmocka_unit_test(instances_lights_and_worlds_that_make_no_sense_are_named),
-        cmocka_unit_test(materials_and_images_that_make_no_sense_are_named),
-        cmocka_unit_test(pictures_that_make_no_sense_are_named),
-        cmocka_unit_test(nothing_at_all_is_an_answer_and_no_crash),
+        cmocka_unit_test(the_plan_says_what_a_budget_leaves_out),
         cmocka_unit_test(a_caller_can_check_that_it_speaks_the_same_language),
         cmocka_unit_test(scenes_and_pictures_leave_no_memory_behind),
     };

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "pictures.h"
+#include "preview/choose_lights.h"
 #include "scenes.h"
 
 #define PI 3.14159265358979323846
@@ -173,13 +174,13 @@ static void light_does_not_pass_a_surface(void **state)
 }
 
 /* With more lights than are gathered at a time, every one still counts once. */
-static void many_lights_add_up(void **state)
+static void lights_add_up(void **state)
 {
     (void)state;
     scene s = scenes_empty();
     add_floor(&s, 5.0F);
     double expected = 0.0;
-    for (int k = 0; k < 37; ++k) {
+    for (int k = 0; k < MOST_LIGHTS; ++k) {
         const float from[3] = { 0.1F * (float)k, 1.0F, 0.0F };
         scenes_add_light(&s, SCENE_LIGHT_DIRECTIONAL, from, 0.1F);
         expected += lambert(0.1, 1.0 / sqrt(1.0 + 0.01 * k * k));
@@ -229,7 +230,7 @@ int main(void)
         cmocka_unit_test(a_spot_light_fades_from_its_inner_to_its_outer_cone),
         cmocka_unit_test(a_shadow_has_the_area_of_what_throws_it),
         cmocka_unit_test(light_does_not_pass_a_surface),
-        cmocka_unit_test(many_lights_add_up),
+        cmocka_unit_test(lights_add_up),
         cmocka_unit_test(smooth_shading_has_no_black_facets_at_the_terminator),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -109,13 +109,14 @@ static void layers_one_by_one_give_the_numbers_of_the_layered_model(void **state
     const scene_material m = two_layers(&s);
     scenes_add_instance(&s, scenes_add_square(&s, scenes_add_material(&s, &m), 2.0F), NULL, 0);
     const scene_camera from = scenes_camera(SCENE_PERSPECTIVE, eye, target, 0.5F);
+    preview_options o = PREVIEW_OPTIONS_INIT;
     report r = { 0 };
     camera c;
     traced_scene t;
     materials made;
+    o.model = GLINT_MODEL_COUNTING;
     textures *images = NULL;
-    assert_true(camera_make(&from, 32, 32, &c, &r) &&
-                materials_make(&s, GLINT_MODEL_COUNTING, PREVIEW_FACETS_OWN, NULL, &made, &r) &&
+    assert_true(camera_make(&from, 32, 32, &c, &r) && materials_make(&s, &o, NULL, &made, &r) &&
                 textures_open(&s, &images, &r));
     traced_open(&t, &s, NULL);
     shader with = { &s, &made, images, NULL };

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -85,10 +86,34 @@ static void budget_is_met_against_many_samples_or_the_plan_says_no(void **state)
     assert_true(met > 2);
 }
 
+/* Without a budget lights with a shape get the integral that the smallest budget gets, and not the fit. */
+static void no_budget_is_the_limit_of_small_ones(void **state)
+{
+    (void)state;
+    for (int i = 0; i < plan_case_count(); ++i) {
+        scene_camera camera;
+        preview_options o;
+        scene s = plan_case(i, &camera, &o);
+        image none = render(&s, o, 0.0, 4), least = render(&s, o, 1e-6, 4);
+        const double error = plan_case_error(&least, &none);
+        if (!(error <= 1e-6))
+            fail_msg("%s: a budget of 1e-6 is %g from none", plan_case_name(i), error);
+        o.area_lights = GLINT_AREA_LIGHT_FAST;
+        image fit = render(&s, o, 0.0, 4);
+        if (strcmp(plan_case_name(i), "window") == 0)
+            assert_true(plan_case_error(&fit, &none) > 1e-5);
+        image_free(&fit);
+        image_free(&least);
+        image_free(&none);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_out_stays_within_the_budget),
+        cmocka_unit_test(no_budget_is_the_limit_of_small_ones),
         cmocka_unit_test(budget_is_met_against_many_samples_or_the_plan_says_no),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

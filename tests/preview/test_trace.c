@@ -179,16 +179,16 @@ static void a_packet_says_of_every_ray_what_it_says_alone(void **state)
             rays[i].random = bits;
             packet[i] = k % 5 != 0 && i % 5 == k % 5 ? NULL : &rays[i];
         }
-        const uint32_t hit = trace_closest_packet(t.trace, packet, TRACE_BLEND_RANDOM, found);
+        const uint32_t met = trace_closest_packet(t.trace, packet, TRACE_BLEND_RANDOM, found);
         const uint32_t dark = trace_occluded_packet(t.trace, packet);
         for (uint32_t i = 0; i < TRACE_PACKET; ++i) {
             trace_hit alone;
             const bool is_there = packet[i] != NULL;
-            assert_int_equal(hit >> i & 1U, is_there && trace_closest(t.trace, &rays[i], TRACE_BLEND_RANDOM, &alone));
+            assert_int_equal(met >> i & 1U, is_there && trace_closest(t.trace, &rays[i], TRACE_BLEND_RANDOM, &alone));
             assert_int_equal(dark >> i & 1U, is_there && trace_occluded(t.trace, &rays[i]));
-            if (hit >> i & 1U)
+            if (met >> i & 1U)
                 assert_memory_equal(&alone.weights, &found[i].weights, sizeof alone.weights);
-            hits += (int)(hit >> i & 1U);
+            hits += (int)(met >> i & 1U);
             shadows += (int)(dark >> i & 1U);
         }
     }

@@ -147,7 +147,7 @@ static double any_lit(float trials, float p)
     const float survival = -em1 + (trials - floorf(trials)) * p * mass;
     double sum = 0.0;
     for (int k = 0; k < 65536; k++)
-        sum += ((double)binomial_threshold(survival, (float)k * 0x1p-16F) + 2147483648.0) * 0x1p-32;
+        sum += ((double)binomial_threshold(survival * BINOMIAL_SCALE + (float)k * 0x1p-16F) + 2147483648.0) * 0x1p-32;
     return sum / 65536.0;
 }
 
@@ -169,11 +169,11 @@ static void no_variance(void)
     const float n = 1e9F, p = f(1.0F + FLT_EPSILON);
     const binomial_chance c = binomial_chance_of(1.0F);
     vint uniform[12] = { 12345 };
-    const vfloat weight[12] = { 1.0F }, dither[3] = { 0.0F };
+    const vfloat weight[12] = { 1.0F };
     row("p = 1 + 2⁻²³, as D Ω / D_H may round to: 10⁹ facets, all lit", "N p + √(N p (1 - p)) z",
         (double)(n * p + sqrtf(f(n * p * (1.0F - p))) * 0.5F), 1e9L,
-        (double)binomial_weighted_sum(n, &c, uniform, weight, dither), "p at most 1; from there the lobe is smooth",
-        "exact", "counting_edges");
+        (double)binomial_weighted_sum(n, &c, uniform, weight, 0.0F, NULL, (binomial_many){ 12, 1.0F }),
+        "p at most 1; from there the lobe is smooth", "exact", "counting_edges");
 }
 
 /* ---- places ---- */

@@ -19,8 +19,7 @@ static double draw(float trials, float p, int32_t u, float dither)
     for (int i = 0; i < 12; i++)
         uniform[i] = i == 0 ? u : INT32_MAX;
     const binomial_chance c = binomial_chance_of(p);
-    const float d[3] = { dither, 0.0F, 0.0F };
-    return (double)binomial_weighted_sum(trials, &c, uniform, weight, d);
+    return (double)binomial_weighted_sum(trials, &c, uniform, weight, dither, NULL, (binomial_many){ 12, 1.0F });
 }
 
 /* The mean over all of 2^16 dithers and 2^32 uniforms, where no more than a few of these give a count. */
@@ -171,7 +170,7 @@ static void far_places_keep_their_cells(void **state)
         const grid_vertex g = { 0.0F, 0, -(int)(random_bits(&random) % 21U) };
         vuint cell[GRID_CELLS];
         vfloat weight[GRID_CELLS], sine, cosine;
-        grid_cells(&g, u, v, 77U, cell, weight);
+        grid_cells(&g, 1, u, v, 77U, cell, weight);
         sincos_pi(0.0F, &sine, &cosine);
         const float across = exp2_i(-(g.level >> 1)) * (g.level & 1 ? 0.70710678F : 1.0F);
         const float skew = across * 0.577350269F, tall = across * 1.15470054F;

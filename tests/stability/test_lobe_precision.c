@@ -4,6 +4,7 @@
 #include "traps.h"
 
 #include "lobe_truth.h"
+#define GLINT_LANES 1
 #include "ndf/fresnel.h"
 #include "ndf/ndf.h"
 

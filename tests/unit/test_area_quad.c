@@ -1,4 +1,5 @@
 /* The sums over a light are the same bits whatever the processor knows. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -22,32 +23,35 @@ static vec3 unit_above(uint64_t *random)
     return vec3_normalize(v);
 }
 
-/* A polygon or an ellipse in the moved frame, under any lobe. */
-static void make(uint64_t *random, quad_lobe *lobe, quad_light *light)
+static ltc fit_of(const quad_lobe *lobe)
 {
-    *lobe = (quad_lobe){ .is_ggx = (int)(random_bits(random) & 1U),
-                         .is_schlick = (int)(random_bits(random) & 1U),
-                         .alpha = (float)random_log_between(random, 1e-4, 1.0),
-                         .wo = unit_above(random) };
-    lobe->masked_o = between(random, 0.0, 0.5);
-    const float along = 2.0F * lobe->alpha;
-    lobe->back[0] = (vec3){ along, 0.0F, between(random, -1.0, 1.0) };
-    lobe->back[1] = (vec3){ 0.0F, along, 0.0F };
-    *light = (quad_light){ .middle = { 0.0F, 0.0F, 1.0F }, .center = { 0.0F, 0.0F, 1.0F } };
-    const float size = (float)random_log_between(random, 1e-4, 2.0);
-    light->x.x = light->y.y = size;
-    light->turn[0] = size * size;
-    const int is_arc = (int)(random_bits(random) & 1U);
-    light->count = 4;
-    for (int i = 0; i < 4; i++) {
-        static const float turn[5][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 }, { 1, 0 } };
-        quad_sector *s = &light->sector[i];
-        s->is_arc = is_arc;
-        s->a = vec3_normalize((vec3){ size * turn[i][0], size * turn[i][1], 1.0F });
-        s->b = vec3_normalize((vec3){ size * turn[i + 1][0], size * turn[i + 1][1], 1.0F });
-        s->volume = s->a.x * s->b.y - s->a.y * s->b.x;
-        memcpy(s->from, turn[i], sizeof(s->from));
-        s->half_turns = 0.5F;
+    return ltc_find_base(lobe->is_ggx ? NDF_GGX : NDF_BECKMANN, (double)lobe->alpha, vec3d_of(lobe->wo));
+}
+
+static vec3d any_vector(uint64_t *random, double size)
+{
+    return (vec3d){ size * random_between(random, -1.0, 1.0), size * random_between(random, -1.0, 1.0),
+                    size * random_between(random, -1.0, 1.0) };
+}
+
+/* Rectangles, ellipses and round lights, above the horizon or astride it, of any size. */
+static void any_light(uint64_t *random, area_light *light)
+{
+    const double size = random_log_between(random, 1e-5, 30.0);
+    vec3d center = any_vector(random, 1.0);
+    center.z = fabs(center.z);
+    const vec3d x = any_vector(random, size), y = any_vector(random, size);
+    switch (random_bits(random) % 3U) {
+    case 0:
+        area_make_rectangle(light, center, x, y, 1);
+        break;
+    case 1:
+        area_make_ellipse(light, center, x, y, 1);
+        break;
+    default: {
+        const double angle = random_log_between(random, 1e-5, 1.5);
+        area_make_round(light, vec3d_normalize(center), sin(angle), cos(angle));
+    }
     }
 }
 
@@ -58,15 +62,34 @@ static void every_processor_gives_the_same_bits(void **state)
     if (!__builtin_cpu_supports("avx2"))
         skip();
     uint64_t random = 51;
-    for (int i = 0; i < 200000; i++) {
-        quad_lobe lobe;
-        quad_light light;
-        quad_sums base, avx2;
-        make(&random, &lobe, &light);
-        area_quad_sum_base(&lobe, &light, 64, &base);
-        area_quad_sum_avx2(&lobe, &light, 64, &avx2);
-        assert_memory_equal(&base, &avx2, sizeof(base));
+    int seen = 0;
+    for (int i = 0; i < 100000; i++) {
+        quad_lobe lobe = { .is_ggx = (int)(random_bits(&random) & 1U),
+                           .is_schlick = (int)(random_bits(&random) & 1U),
+                           .alpha = (float)random_log_between(&random, 1e-4, 1.0),
+                           .masked_o = between(&random, 0.0, 0.5),
+                           .wo = unit_above(&random) };
+        const ltc fit = fit_of(&lobe);
+        lobe.back[0] = (vec3){ (float)fit.column[0].x, (float)fit.column[1].x, (float)fit.column[2].x };
+        lobe.back[1] = (vec3){ (float)fit.column[0].y, (float)fit.column[1].y, (float)fit.column[2].y };
+        area_light light;
+        ltc_light moved[2];
+        quad_sums sums[2];
+        any_light(&random, &light);
+        if (light.kind == AREA_NOTHING)
+            continue;
+        memset(moved, 0, sizeof(moved));
+        const int is_seen = ltc_move_base(&fit, &light, &moved[0]);
+        assert_int_equal(ltc_move_avx2(&fit, &light, &moved[1]), is_seen);
+        assert_memory_equal(&moved[0], &moved[1], sizeof(moved[0]));
+        if (!is_seen)
+            continue;
+        area_quad_sum_base(&lobe, &moved[0], &sums[0]);
+        area_quad_sum_avx2(&lobe, &moved[0], &sums[1]);
+        assert_memory_equal(&sums[0], &sums[1], sizeof(sums[0]));
+        seen++;
     }
+    assert_true(seen > 50000);
 #else
     skip();
 #endif

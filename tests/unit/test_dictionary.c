@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "model/dictionary_cell.h"
+#include "model/dictionary_kernel.h"
 #include "model/dictionary_patch.h"
 #include "statistics.h"
 
@@ -147,7 +148,7 @@ static void quantiles_invert_the_integral(void **state)
 static void mean_over_cells_is_the_target(void **state)
 {
     (void)state;
-    enum { SEEDS = 24, CELLS = 12000, SLOPES = 6 };
+    enum { SEEDS = 24, CELLS = 12000, SLOPES = 6, AT_ONCE = 400 };
     static const double slopes[SLOPES][2] = { { 0, 0 },     { 0.7, 0 },    { 0, 0.7 },
                                               { 0.9, 0.6 }, { -1.1, 0.4 }, { 0.3, 1.2 } };
     static const float facets[] = { 1.0F, 20.0F, 1e4F };
@@ -162,12 +163,20 @@ static void mean_over_cells_is_the_target(void **state)
                 };
                 double sum[SLOPES] = { 0.0 };
                 uint64_t random = (uint64_t)seed << 8 | (uint64_t)(3 * k + f);
-                for (int c = 0; c < CELLS; c++) {
-                    dictionary_cell_slopes cell;
-                    dictionary_cell_find(&cell, &s, (uint32_t)random_bits(&random), 0.5F * log2f(facets[f]), 1.0F);
-                    for (int i = 0; i < SLOPES; i++)
-                        sum[i] += (double)dictionary_cell_density(
-                            &cell, &s.target, (slope){ (float)(slopes[i][0] * ax), (float)(slopes[i][1] * ay) });
+                for (int c = 0; c < CELLS; c += AT_ONCE) {
+                    dictionary_cells cells;
+                    float density[DICTIONARY_ROOM];
+                    for (int i = 0; i < AT_ONCE; i++) {
+                        cells.hash[i] = (uint32_t)random_bits(&random);
+                        cells.log4_facets[i] = dictionary_cell_log4(&s, cells.hash[i], 0.5F * log2f(facets[f]), 1.0F);
+                    }
+                    for (int n = 0; n < SLOPES; n++) {
+                        dictionary_cells_density(&s, &cells, AT_ONCE,
+                                                 (slope){ (float)(slopes[n][0] * ax), (float)(slopes[n][1] * ay) },
+                                                 density);
+                        for (int i = 0; i < AT_ONCE; i++)
+                            sum[n] += (double)density[i];
+                    }
                 }
                 for (int i = 0; i < SLOPES; i++) {
                     const double r2 = slopes[i][0] * slopes[i][0] + slopes[i][1] * slopes[i][1];
@@ -215,6 +224,40 @@ static glint_footprint ellipse_at(double u, double v, double major, double minor
                               (float)(major * sin(turn)),
                               (float)(minor * cos(turn)),
                               0U };
+}
+
+static void every_width_gives_the_same_cells(void **state)
+{
+    (void)state;
+    uint64_t random = 41;
+    dictionary_build(&table, &scratch, 5);
+    static dictionary_corners corners;
+    static dictionary_cells cells;
+    static float weight[2][DICTIONARY_ROOM], density[2][DICTIONARY_ROOM];
+    static uint32_t hash[2][DICTIONARY_ROOM];
+    enum { COUNT = 400 };
+    for (int round = 0; round < 200; round++) {
+        for (int i = 0; i < COUNT; i++) {
+            corners.row[i] = (uint32_t)random_bits(&random);
+            corners.low[i] = (uint32_t)random_bits(&random);
+            corners.high[i] = (uint32_t)random_bits(&random);
+            corners.r2[i] = (float)random_between(&random, 0.0, 1.0);
+            cells.hash[i] = (uint32_t)random_bits(&random);
+            cells.log4_facets[i] = (float)random_between(&random, 0.0, 16.0);
+        }
+        const ndf_kind kind = round % 2 ? NDF_GGX : NDF_BECKMANN;
+        /* Two in the domain of the marginals, and beyond it. */
+        const float x = (float)random_between(&random, -2.0, 2.0), y = (float)random_between(&random, -2.0, 2.0);
+        for (size_t lanes = 1; lanes <= 16; lanes = lanes == 1 ? 4 : 2 * lanes) {
+            const dictionary_width width = dictionary_widest(lanes);
+            const int k = lanes > 1;
+            width.weigh(&corners, COUNT, hash[k], weight[k]);
+            width.look(&table, kind, &cells, COUNT, x, y, density[k]);
+            assert_memory_equal(hash[k], hash[0], COUNT * sizeof(hash[0][0]));
+            assert_memory_equal(weight[k], weight[0], COUNT * sizeof(weight[0][0]));
+            assert_memory_equal(density[k], density[0], COUNT * sizeof(density[0][0]));
+        }
+    }
 }
 
 static void weights_sum_to_one_and_cells_fit(void **state)
@@ -306,6 +349,7 @@ int main(void)
         cmocka_unit_test(lobes_double_from_level_to_level_and_stay),
         cmocka_unit_test(quantiles_invert_the_integral),
         cmocka_unit_test(mean_over_cells_is_the_target),
+        cmocka_unit_test(every_width_gives_the_same_cells),
         cmocka_unit_test(weights_sum_to_one_and_cells_fit),
         cmocka_unit_test(cells_lie_along_the_footprint),
         cmocka_unit_test(cells_of_neighbouring_levels_share_one_index_in_four),

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#define GLINT_LANES 1
 #include "ndf/fresnel.h"
 #include "ndf/ndf.h"
 #include "statistics.h"

@@ -15,10 +15,10 @@ bl_info = {
     "category": "Material",
 }
 
-from . import engine, jobs, nodes, panel, preferences, presets, properties, render_settings
+from . import engine, jobs, nodes, panel, plan_report, preferences, presets, properties, render_panels, render_settings
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # io_scene_gltf2 looks for them here
 
-MODULES = (preferences, properties, nodes, presets, jobs, panel, render_settings, engine)
+MODULES = (preferences, properties, nodes, presets, jobs, panel, render_settings, render_panels, plan_report, engine)
 
 
 def register():

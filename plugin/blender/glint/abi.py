@@ -8,11 +8,16 @@ ABI = 1
 OK = 0
 BAD_INPUT = 1
 CANCELLED = 2
+OTHER_MESHES = 3
 LIGHT_SUN = 0
 LIGHT_POINT = 1
 LIGHT_SPOT = 2
 LIGHT_RECT = 3
 LIGHT_DISK = 4
+MATERIALS = 1
+IMAGES = 2
+LIGHTS = 4
+WORLD = 8
 PERSPECTIVE = 0
 ORTHOGRAPHIC = 1
 COMBINED = 0
@@ -194,6 +199,7 @@ class PictureOptions(ctypes.Structure):
         ("seed", ctypes.c_uint32),
         ("passes", ctypes.c_int32),
         ("transparent", ctypes.c_int32),
+        ("accuracy", ctypes.c_float),
     ]
 
     def __init__(self, **values):
@@ -216,8 +222,10 @@ FUNCTIONS = {
     "glint_preview_version": (ctypes.c_char_p, []),
     "glint_preview_size_of": (ctypes.c_size_t, [ctypes.c_char_p]),
     "glint_preview_scene_create": (ctypes.c_int, [ctypes.POINTER(SceneOptions), ctypes.POINTER(ctypes.c_void_p), ctypes.c_char_p, ctypes.c_size_t]),
+    "glint_preview_scene_change": (ctypes.c_int, [ctypes.c_void_p, ctypes.c_int32, ctypes.POINTER(SceneOptions), ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_scene_warnings": (ctypes.c_char_p, [ctypes.c_void_p]),
     "glint_preview_scene_destroy": (None, [ctypes.c_void_p]),
+    "glint_preview_plan": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.c_char_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_create": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.POINTER(ctypes.c_void_p), ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_refine": (ctypes.c_int, [ctypes.c_void_p, ctypes.c_int32, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_cancel": (None, [ctypes.c_void_p, ctypes.c_int32]),

@@ -10,7 +10,7 @@ from gpu_extras.presets import draw_texture_2d
 
 from . import abi, compat, render_settings, scene_camera
 from .library import GlintError, Picture, Scene
-from .render_settings import ENGINE, MODELS, passes_of
+from .render_settings import ENGINE, MODELS, passes_of, threads_of
 from .scene_data import Cache, describe
 from .viewport import Session, View
 
@@ -64,7 +64,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
 
     def update(self, data, depsgraph):
         """Blender's data may be read here; render() only works with what came of it."""
-        self.description = describe(depsgraph)
+        self.description = describe(depsgraph, model=MODELS[depsgraph.scene.glint.model])
         self.camera = scene_camera.of_render(depsgraph, self.description.warnings.append)
 
     def render(self, depsgraph):
@@ -78,7 +78,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         if self.camera is None:
             raise GlintError("The scene has no camera")
-        scene = Scene(self.description, MODELS[depsgraph.scene.glint.model])
+        scene = Scene(self.description)
         warnings = self.description.warnings + scene.warnings
         self.description = None
         try:
@@ -98,7 +98,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
         picture = Picture(
             scene, self.camera, width, height, (left, height - bottom - part_height, part_width, part_height),
             samples=samples, bounces=settings.bounces, seed=settings.seed + (source.frame_current if settings.animate_seed else 0),
-            threads=source.render.threads if source.render.threads_mode == "FIXED" else 0,
+            threads=threads_of(source), accuracy=settings.accuracy,
             passes=int(bool(passes)), transparent=int(source.render.film_transparent),
         )
         try:
@@ -163,7 +163,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             self.session, self.cache = Session(self._ask_for_redraw), Cache()
         self._forget(depsgraph)
         try:
-            self.session.show_scene(describe(depsgraph, self.cache), MODELS[depsgraph.scene.glint.model])
+            self.session.show_scene(describe(depsgraph, self.cache, MODELS[depsgraph.scene.glint.model]))
         except GlintError as problem:
             self.session.problem = str(problem)
 
@@ -187,7 +187,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
         self.session.show_view(View(
             camera=scene_camera.of_view(context.region_data, scene), width=region.width, height=region.height,
             samples=settings.preview_samples, bounces=settings.bounces, seed=settings.seed,
-            transparent=scene.render.film_transparent,
+            accuracy=settings.preview_accuracy, threads=threads_of(scene), transparent=scene.render.film_transparent,
         ))
         frame = self.session.frame
         self._tell(frame)

@@ -16,6 +16,10 @@ CHANNELS = {abi.COMBINED: 4, abi.SMOOTH: 3, abi.GLINT_COUNT: 1, abi.GLINT_PROBAB
             abi.DEPTH: 1}
 
 
+# Room for a few thousand decisions.
+PLAN_BYTES = 1 << 20
+
+
 class GlintError(RuntimeError):
     """What the library cannot render, in its own words."""
 
@@ -56,21 +60,18 @@ def _text(text):
 class Scene:
     """A description (scene_data.Description), copied and made ready for rays."""
 
-    def __init__(self, description, model=-1):
+    def __init__(self, description):
         self.handle = ctypes.c_void_p()
         self._library = load()
-        meshes = abi.array_of(abi.Mesh, [_mesh(mesh) for mesh in description.meshes])
-        images = abi.array_of(abi.Image, [_image(image) for image in description.images])
-        lights = abi.array_of(abi.Light, description.lights)
-        options = abi.SceneOptions(
-            images=images, image_count=len(description.images), materials=_text(description.materials), meshes=meshes,
-            mesh_count=len(description.meshes), instance_count=len(description.instance_mesh),
-            instance_to_world=abi.pointer(description.instance_to_world, "float"),
-            instance_mesh=abi.pointer(description.instance_mesh, "int32_t"),
-            instance_object=abi.pointer(description.instance_object, "int32_t"), lights=lights,
-            light_count=len(description.lights), world=_world(description.world), model=model,
-        )
+        options = _options(description, with_meshes=True)
         _call(self._library.glint_preview_scene_create, ctypes.byref(options), ctypes.byref(self.handle))
+
+    def change(self, description, parts):
+        """Puts parts of another description in the place of this one's, while the meshes stay. Its pictures must be closed. False:
+        it takes a new scene; this one is as it was."""
+        options = _options(description, with_meshes=False)
+        result = _call(self._library.glint_preview_scene_change, self.handle, parts, ctypes.byref(options))
+        return result != abi.OTHER_MESHES
 
     @property
     def warnings(self):
@@ -80,6 +81,23 @@ class Scene:
         """Its pictures must be closed."""
         self._library.glint_preview_scene_destroy(self.handle)
         self.handle = ctypes.c_void_p()
+
+
+def _options(description, with_meshes):
+    meshes = abi.array_of(abi.Mesh, [_mesh(mesh) for mesh in description.meshes]) if with_meshes else None
+    images = abi.array_of(abi.Image, [_image(image) for image in description.images])
+    options = abi.SceneOptions(
+        images=images, image_count=len(description.images), materials=_text(description.materials),
+        lights=abi.array_of(abi.Light, description.lights), light_count=len(description.lights),
+        world=_world(description.world), model=description.model,
+    )
+    if with_meshes:
+        options.meshes, options.mesh_count = meshes, len(description.meshes)
+        options.instance_count = len(description.instance_mesh)
+        options.instance_to_world = abi.pointer(description.instance_to_world, "float")
+        options.instance_mesh = abi.pointer(description.instance_mesh, "int32_t")
+        options.instance_object = abi.pointer(description.instance_object, "int32_t")
+    return options
 
 
 def _mesh(mesh):
@@ -107,6 +125,14 @@ def _world(world):
     height, width, _ = world.map.shape
     return abi.World(map=abi.pointer(world.map, "float"), map_width=width, map_height=height,
                      map_rotation=tuple(world.rotation), map_scale=world.scale)
+
+
+def plan(scene, camera, width, height, **options):
+    """What a picture would do and leave out, as glint_preview_plan says it: lines of fields."""
+    wanted = abi.PictureOptions(camera=ctypes.pointer(camera), width=width, height=height, **options)
+    text = ctypes.create_string_buffer(PLAN_BYTES)
+    _call(load().glint_preview_plan, scene.handle, ctypes.byref(wanted), text, len(text))
+    return [line.split("\t") for line in text.value.decode("utf-8", "replace").splitlines()]
 
 
 class Picture:

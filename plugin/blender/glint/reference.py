@@ -75,6 +75,20 @@ def set_up(scene, width, height, threads=0, bounces=0, seed=0):
         light.cycles.use_multiple_importance_sampling = True
 
 
+def choose_tile(render, tile):
+    """Renders a part of the picture only: left and top, width and height in pixels; None is all."""
+    render.use_border = render.use_crop_to_border = tile is not None
+    if tile is None:
+        return
+    left, top, width, height = tile
+    bottom = render.resolution_y - top - height
+    # Blender cuts to whole pixels: a quarter of one more than rounding can take away.
+    render.border_min_x = (left + 0.25) / render.resolution_x
+    render.border_max_x = (left + width + 0.25) / render.resolution_x
+    render.border_min_y = (bottom + 0.25) / render.resolution_y
+    render.border_max_y = (bottom + height + 0.25) / render.resolution_y
+
+
 def fit_camera(camera):
     """glTF's field of view is that of the height, its orthographic sizes are halves of the picture's."""
     if camera.data.type == "PERSP":
@@ -122,6 +136,8 @@ def show_flakes(scene, smooth):
 def render(scene, values):
     """Renders to values.output; returns what the picture depends on."""
     set_up(scene, values.width, values.height, values.threads, values.bounces, values.seed)
+    tile = getattr(values, "tile", None)
+    choose_tile(scene.render, tile)
     keeps_world = getattr(values, "world", False)
     if not keeps_world:
         scene.world = None
@@ -132,8 +148,8 @@ def render(scene, values):
     start = time.perf_counter()
     bpy.ops.render.render(write_still=True)
     return {
-        "scene": os.path.basename(values.scene), "size": [values.width, values.height], "spp": scene.cycles.samples,
-        "seed": values.seed, "facets": "cycles", "smooth": values.smooth, "world": keeps_world,
-        "camera": scene.camera.name, "flakes_per_pixel": flakes, "materials": materials,
+        "scene": os.path.basename(values.scene), "size": [values.width, values.height], "tile": tile,
+        "spp": scene.cycles.samples, "seed": values.seed, "facets": "cycles", "smooth": values.smooth,
+        "world": keeps_world, "camera": scene.camera.name, "flakes_per_pixel": flakes, "materials": materials,
         "blender": bpy.app.version_string, "seconds": time.perf_counter() - start,
     }

@@ -10,11 +10,22 @@ import os
 import sys
 
 
+def _tile(parser, values):
+    try:
+        left, top, width, height = (int(number) for number in values.tile.split(","))
+    except ValueError:
+        parser.error(f"--tile '{values.tile}': expected X,Y,WIDTH,HEIGHT")
+    if min(left, top) < 0 or min(width, height) < 1 or left + width > values.width or top + height > values.height:
+        parser.error(f"--tile '{values.tile}': expected a part of the {values.width}x{values.height} pixels")
+    return left, top, width, height
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(prog="reference.py", description="Renders the Cycles reference of a scene.")
     parser.add_argument("scene", help="glTF 2.0 file (.gltf, .glb) or .blend")
     parser.add_argument("-o", "--output", required=True, help="picture to write, .exr")
     parser.add_argument("--size", default="1280x720", help="pixels, WxH")
+    parser.add_argument("--tile", default="", help="part to render, X,Y,WIDTH,HEIGHT from the upper left; without it all")
     parser.add_argument("--spp", type=int, default=0, help="samples per pixel; 0: from the flakes in a pixel")
     parser.add_argument("--camera", default="", help="name of a camera of the file; without it the active or the first")
     parser.add_argument("--smooth", action="store_true", help="without single flakes")
@@ -27,6 +38,7 @@ def parse(arguments):
         values.width, values.height = (int(side) for side in values.size.lower().split("x"))
     except ValueError:
         parser.error(f"--size '{values.size}': expected WxH")
+    values.tile = _tile(parser, values) if values.tile else None
     if not values.output.lower().endswith(".exr"):
         parser.error(f"--output '{values.output}': expected a name that ends in .exr")
     if not os.path.isfile(values.scene):

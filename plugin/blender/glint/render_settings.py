@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings of the render engine: properties of the scene and of its view layers, and the panels that show them."""
+"""Settings of the render engine: properties of the scene and of its view layers."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from . import abi
 
@@ -33,6 +33,15 @@ class GlintRenderSettings(bpy.types.PropertyGroup):
     preview_samples: IntProperty(
         name="Viewport Samples", description="Samples a pixel of the viewport, which come one after the other", min=1,
         max=65536, default=64,
+    )
+    accuracy: FloatProperty(
+        name="Accuracy",
+        description="The error that a final render may have for speed: relative, root mean square over pixels. 0 leaves nothing out",
+        min=0.0, max=1.0, default=0.02, precision=3, step=1,
+    )
+    preview_accuracy: FloatProperty(
+        name="Viewport Accuracy", description="The error that the viewport may have for speed", min=0.0, max=1.0, default=0.05,
+        precision=3, step=1,
     )
     bounces: IntProperty(
         name="Bounces", description="Of light from surface to surface; 0 shows lights and world only", min=0, max=64,
@@ -74,156 +83,22 @@ def passes_of(layer):
     return own + [each for name, each in COMMON_PASSES.items() if getattr(layer, name)]
 
 
-class _Panel:
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    COMPAT_ENGINES = {ENGINE}
-
-    @classmethod
-    def poll(cls, context):
-        return context.engine in cls.COMPAT_ENGINES
-
-
-class GLINT_PT_sampling(_Panel, bpy.types.Panel):
-    bl_label = "Sampling"
-    bl_context = "render"
-
-    def draw(self, context):
-        layout, settings = self.layout, context.scene.glint
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column(align=True)
-        column.prop(settings, "samples", text="Render")
-        column.prop(settings, "preview_samples", text="Viewport")
-        layout.prop(settings, "bounces")
-        layout.prop(settings, "model")
-        row = layout.row(align=True)
-        row.prop(settings, "seed")
-        row.prop(settings, "animate_seed", text="", icon="TIME")
-
-
-class GLINT_PT_film(_Panel, bpy.types.Panel):
-    bl_label = "Film"
-    bl_context = "render"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context):
-        self.layout.use_property_split = True
-        self.layout.prop(context.scene.render, "film_transparent", text="Transparent")
-
-
-class GLINT_PT_passes(_Panel, bpy.types.Panel):
-    bl_label = "Passes"
-    bl_context = "view_layer"
-
-    def draw(self, context):
-        layout, layer = self.layout, context.view_layer
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column(heading="Glints", align=True)
-        for name in OWN_PASSES:
-            column.prop(layer.glint, name)
-        column = layout.column(heading="Data", align=True)
-        column.prop(layer, "use_pass_z", text="Depth")
-        column.prop(layer, "use_pass_normal", text="Normal")
-        column.prop(layer, "use_pass_diffuse_color", text="Albedo")
-
-
-class GLINT_PT_light(_Panel, bpy.types.Panel):
-    bl_label = "Light"
-    bl_context = "data"
-
-    @classmethod
-    def poll(cls, context):
-        return context.light is not None and super().poll(context)
-
-    def draw(self, context):
-        layout, light = self.layout, context.light
-        layout.use_property_split = True
-        layout.prop(light, "type", expand=True)
-        layout.prop(light, "color")
-        layout.prop(light, "energy")
-        if light.type == "SUN":
-            layout.prop(light, "angle")
-        elif light.type == "AREA":
-            layout.prop(light, "shape")
-            layout.prop(light, "size")
-            if light.shape in {"RECTANGLE", "ELLIPSE"}:
-                layout.prop(light, "size_y")
-        else:
-            layout.prop(light, "shadow_soft_size", text="Radius")
-        if light.type == "SPOT":
-            layout.prop(light, "spot_size", text="Angle")
-            layout.prop(light, "spot_blend", text="Blend", slider=True)
-
-
-class GLINT_PT_surface(_Panel, bpy.types.Panel):
-    bl_label = "Surface"
-    bl_context = "material"
-
-    @classmethod
-    def poll(cls, context):
-        return context.material is not None and super().poll(context)
-
-    def draw(self, context):
-        layout, material = self.layout, context.material
-        layout.use_property_split = True
-        layout.prop(material, "use_nodes", icon="NODETREE")
-        if material.use_nodes:
-            output = material.node_tree.get_output_node("ALL")
-            if output is not None:
-                layout.template_node_view(material.node_tree, output, output.inputs["Surface"])
-            return
-        for name in ("diffuse_color", "metallic", "roughness"):
-            layout.prop(material, name)
-
-
-class GLINT_PT_world(_Panel, bpy.types.Panel):
-    bl_label = "Surface"
-    bl_context = "world"
-
-    @classmethod
-    def poll(cls, context):
-        return context.world is not None and super().poll(context)
-
-    def draw(self, context):
-        layout, world = self.layout, context.world
-        layout.use_property_split = True
-        layout.prop(world, "use_nodes", icon="NODETREE")
-        output = world.node_tree.get_output_node("ALL") if world.use_nodes else None
-        if output is not None:
-            layout.template_node_view(world.node_tree, output, output.inputs["Surface"])
-        else:
-            layout.prop(world, "color")
+def threads_of(scene):
+    """Of Blender's own setting; 0: one a core."""
+    return scene.render.threads if scene.render.threads_mode == "FIXED" else 0
 
 
 PROPERTIES = (GlintRenderSettings, GlintLayerSettings)
-PANELS = (GLINT_PT_sampling, GLINT_PT_film, GLINT_PT_passes, GLINT_PT_light, GLINT_PT_surface, GLINT_PT_world)
-
-# Blender's own panels that mean nothing here although they are marked for the simplest engine.
-NOT_OURS = {"DATA_PT_light", "DATA_PT_area", "DATA_PT_falloff_curve", "VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes"}
-
-
-def shared_panels():
-    """Panels of Blender's that make sense for any engine: those of its simplest, and the preview spheres."""
-    for cls in bpy.types.Panel.__subclasses__():
-        engines = getattr(cls, "COMPAT_ENGINES", None)
-        if engines and "BLENDER_RENDER" in engines and cls.__name__ not in NOT_OURS:
-            yield cls
 
 
 def register():
-    for cls in PROPERTIES + PANELS:
+    for cls in PROPERTIES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.glint = PointerProperty(type=GlintRenderSettings)
     bpy.types.ViewLayer.glint = PointerProperty(type=GlintLayerSettings)
-    for cls in shared_panels():
-        cls.COMPAT_ENGINES.add(ENGINE)
 
 
 def unregister():
-    for cls in shared_panels():
-        cls.COMPAT_ENGINES.discard(ENGINE)
     del bpy.types.ViewLayer.glint, bpy.types.Scene.glint
-    for cls in reversed(PROPERTIES + PANELS):
+    for cls in reversed(PROPERTIES):
         bpy.utils.unregister_class(cls)

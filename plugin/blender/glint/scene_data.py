@@ -44,6 +44,7 @@ class Description:
     materials: str
     images: list
     warnings: list
+    model: int = -1  # of the library, for every material; -1: for each the one that shows what it asks for
 
 
 class Cache:
@@ -223,9 +224,11 @@ class Builder:
         )
 
 
-def describe(depsgraph, cache=None):
+def describe(depsgraph, cache=None, model=-1):
     """The scene of a depsgraph."""
-    return Builder(depsgraph, cache or Cache()).description()
+    made = Builder(depsgraph, cache or Cache()).description()
+    made.model = model
+    return made
 
 
 # ---- lights ----

@@ -31,7 +31,8 @@ NOT_RENDERED = ("Transmission", "Transmission Weight", "Subsurface", "Subsurface
 
 
 def _clip(value):
-    return tuple(min(max(x, 0.0), 1.0) for x in value) if isinstance(value, tuple) else min(max(value, 0.0), 1.0)
+    """Into [0, 1]; what is no number, as a driver may make it, is 0: max keeps its first argument then."""
+    return tuple(_clip(x) for x in value) if isinstance(value, tuple) else min(max(0.0, value), 1.0)
 
 
 class Materials:
@@ -253,7 +254,7 @@ class _Reader:
 
     def read_emission(self):
         color, strength = self.source("emission"), self.source("strength")
-        factor = tuple(max(c, 0.0) * max(strength.factor, 0.0) for c in color.factor)
+        factor = tuple(max(0.0, c) * max(0.0, strength.factor) for c in color.factor)
         largest = max(factor)
         if not largest > 0.0:
             return

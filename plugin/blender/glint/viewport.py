@@ -12,6 +12,7 @@ import numpy
 
 from . import abi
 from .library import GlintError, Picture, Scene
+from .scene_change import NOTHING, changed_parts
 
 # While somebody turns the view a first picture of a sixteenth of the pixels is there at once.
 DRAFT = 4
@@ -28,6 +29,8 @@ class View:
     bounces: int
     seed: int
     transparent: bool
+    accuracy: float = 0.0
+    threads: int = 0
 
     def same_as(self, other):
         return other is not None and bytes(self.camera) == bytes(other.camera) and all(
@@ -44,6 +47,7 @@ class Frame:
     width: int
     height: int
     view: View
+    description: object  # of the scene that they show
     samples: int
 
 
@@ -54,7 +58,9 @@ class Session:
     def __init__(self, redraw):
         self._redraw_method = weakref.WeakMethod(redraw)
         self._wake = threading.Condition()
-        self._description = self._model = self._view = None
+        self._description = self._view = None
+        self._last = None  # description that was asked for
+        self._scene = self._held = None  # the thread's own: the library's scene, and its description
         self._changed = self._ending = False
         self._picture = None
         self.frame, self.problem, self.warnings = None, "", []
@@ -63,9 +69,12 @@ class Session:
 
     # ---- called by the main thread ----
 
-    def show_scene(self, description, model):
+    def show_scene(self, description):
+        """Begins anew unless it is the same scene, as after a click that selects something."""
         with self._wake:
-            self._description, self._model = description, model
+            if self._last is not None and not self.problem and changed_parts(self._last, description) == NOTHING:
+                return
+            self._description = self._last = description
             self._interrupt()
 
     def show_view(self, view):
@@ -85,8 +94,8 @@ class Session:
 
     def is_done(self):
         frame = self.frame
-        return bool(self.problem) or (frame is not None and frame.view is self._view and frame.samples == frame.view.samples
-                                      and not self._changed)
+        return bool(self.problem) or (frame is not None and frame.view is self._view and frame.description is self._last
+                                      and frame.samples == frame.view.samples)
 
     def _interrupt(self):
         self._changed = True
@@ -102,7 +111,6 @@ class Session:
             redraw()
 
     def _work(self):
-        scene = None
         while True:
             with self._wake:
                 while not self._changed:
@@ -111,24 +119,35 @@ class Session:
                 if self._ending:
                     break
                 description, self._description = self._description, None
-                model, view = self._model, self._view
+                view = self._view
             try:
                 if description is not None:
-                    if scene is not None:
-                        scene.close()
-                        scene = None
-                    scene = Scene(description, model)
-                    self.problem, self.warnings = "", description.warnings + scene.warnings
-                if scene is not None and view is not None:
-                    self._render(scene, view)
+                    self._adopt(description)
+                if self._scene is not None and view is not None:
+                    self._render(self._scene, view)
             except GlintError as problem:
                 self.problem = str(problem)
                 self._redraw()
-        if scene is not None:
-            scene.close()
+        self._drop()
+
+    def _adopt(self, description):
+        """Changes the scene at hand where its meshes can stay: a tree of a million triangles takes a second."""
+        parts = changed_parts(self._held, description) if self._scene is not None else None
+        if parts is None or not self._scene.change(description, parts):
+            self._drop()
+            self._scene = Scene(description)
+        self._held = description
+        self.problem, self.warnings = "", description.warnings + self._scene.warnings
+
+    def _drop(self):
+        if self._scene is not None:
+            self._scene.close()
+        self._scene = self._held = None
 
     def _render(self, scene, view):
-        draft = dataclasses.replace(view, width=max(view.width // DRAFT, 1), height=max(view.height // DRAFT, 1), samples=1)
+        # A draft looks at no plan: that takes longer than it does.
+        draft = dataclasses.replace(view, width=max(view.width // DRAFT, 1), height=max(view.height // DRAFT, 1), samples=1,
+                                    accuracy=0.0)
         if self._grow(scene, draft, view, (1,)):
             steps = [2**k for k in range(view.samples.bit_length()) if 2**k < view.samples]
             # In the end every pass takes as long as it takes to see a difference: an eighth of what there is.
@@ -138,7 +157,8 @@ class Session:
     def _grow(self, scene, settings, view, steps):
         """False: interrupted."""
         picture = Picture(scene, settings.camera, settings.width, settings.height, samples=settings.samples,
-                          bounces=settings.bounces, seed=settings.seed, transparent=int(settings.transparent), passes=0)
+                          bounces=settings.bounces, seed=settings.seed, transparent=int(settings.transparent), accuracy=settings.accuracy,
+                          threads=settings.threads, passes=0)
         try:
             with self._wake:
                 if self._changed:
@@ -148,7 +168,7 @@ class Session:
                 if not picture.refine(samples):
                     return False
                 done = samples if settings is view else 0
-                self.frame = Frame(picture.read(abi.COMBINED), settings.width, settings.height, view, done)
+                self.frame = Frame(picture.read(abi.COMBINED), settings.width, settings.height, view, self._held, done)
                 self._redraw()
             return True
         finally:

@@ -22,7 +22,7 @@ int main(void)
     printf("/* Made by src/light/fit/make_ltc_table.c, which says how. Do not edit. */\n"
            "#include \"light/ltc.h\"\n\n"
            "/* clang-format off */\n"
-           "const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_NUMBERS] = {\n");
+           "const float ltc_table[2][LTC_SIDE][LTC_SIDE][LTC_STRIDE] = {\n");
     fprintf(stderr, "distribution,alpha,view_deg,residual\n");
     for (int d = 0; d < 2; d++) {
         printf("    { /* %s */\n", names[d]);

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What needs a window besides viewport and panel: spheres that show a material, jobs that Esc stops, messages of the glTF hooks.
+
+    xvfb-run -a -s "-screen 0 940x1100x24" blender --factory-startup --enable-event-simulate -P test_window.py -- FOLDER
+
+Writes pictures of the window to FOLDER, and ends with exit code 0 or 3.
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import bpy
+import numpy
+
+import window_case
+from blender_case import folder
+from engine_case import flakes
+from window_case import area, override, press, shoot, wait_for
+
+# Of every picture of the engine's: whether it was a preview, and its side.
+rendered = []
+
+
+def watch():
+    from glint.engine import GlintRenderEngine
+
+    before = GlintRenderEngine._render
+
+    def render(self, depsgraph):
+        before(self, depsgraph)
+        rendered.append((self.is_preview, depsgraph.scene.render.resolution_x))
+
+    GlintRenderEngine._render = render
+
+
+def set_up():
+    import addon_utils
+
+    addon_utils.enable("glint", default_set=True)
+    watch()
+    cube = bpy.data.objects["Cube"]
+    material = flakes("glitter", 300.0, space="OBJECT")
+    material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.9, 0.5, 0.2, 1.0)
+    cube.data.materials.clear()
+    cube.data.materials.append(material)
+    bpy.context.scene.render.engine = "GLINT"
+    return material
+
+
+def open_panel(cls):
+    bpy.utils.unregister_class(cls)
+    cls.bl_options = set()
+    bpy.utils.register_class(cls)
+
+
+def pixels_of(path):
+    image = bpy.data.images.load(path)
+    width, height = image.size
+    values = numpy.empty(width * height * 4, numpy.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(height, width, 4)
+
+
+# ---- spheres ----
+
+
+def show_material(view):
+    """The tab of the material in place of the 3-D view, with the sphere and the slots that Blender itself gives to EEVEE."""
+    open_panel(bpy.types.MATERIAL_PT_preview)
+    view.type = "PROPERTIES"
+    yield 0.5  # which finds out what tabs there are
+    view.spaces[0].context = "MATERIAL"
+
+
+def largest_preview():
+    return max((side for is_preview, side in rendered if is_preview), default=0)
+
+
+def spheres_show_a_material(material):
+    view = area("VIEW_3D")
+    yield from show_material(view)
+    yield from wait_for("the sphere", lambda: largest_preview() > 100)
+    yield 1.0
+    path = os.path.join(folder(), "sphere.png")
+    shoot(path, view)
+    # Colours that no button has: the copper of the ball on a good part of the window.
+    picture = pixels_of(path)
+    copper = (picture[..., 0] > 1.3 * picture[..., 2]) & (picture[..., 0] > 0.2)
+    assert copper.mean() > 0.005, f"{copper.mean()} of the window is copper"
+    count = len(rendered)
+    with bpy.context.temp_override(**override(view)):
+        material.glint.density_exponent = 0.5
+    yield from wait_for("the sphere of another density", lambda: len(rendered) > count)
+
+
+# ---- jobs ----
+
+
+def running_blenders():
+    """Processes that this one has begun."""
+    own = str(os.getpid())
+    found = []
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="ascii") as file:
+                fields = file.read().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        if fields[1] == own and fields[0] != "Z":
+            found.append(int(name))
+    return found
+
+
+def escape_stops_a_job():
+    scene = bpy.context.scene
+    path = os.path.join(folder(), "never.exr")
+    scene.glint_reference.path, scene.glint_reference.samples = path, 65536  # hours
+    before = set(running_blenders())
+    with bpy.context.temp_override(**override(area("PROPERTIES"))):
+        assert bpy.ops.glint.render_reference("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield from wait_for("another Blender", lambda: set(running_blenders()) - before)
+    yield 1.0
+    press("ESC")
+    yield from wait_for("the other Blender to end", lambda: not set(running_blenders()) - before)
+    yield 0.5
+    assert not os.path.exists(path), "half a picture"
+    # The window is free for the next one.
+    scene.glint_reference.path = "nothing"
+    with bpy.context.temp_override(**override(area("PROPERTIES"))):
+        try:
+            bpy.ops.glint.render_reference("INVOKE_DEFAULT")
+        except RuntimeError as problem:
+            assert "expected a name that ends in .exr" in str(problem), problem
+
+
+# ---- messages ----
+
+
+def hooks_open_a_message():
+    from glint import gltf
+
+    view = area("PROPERTIES")
+    quiet, loud = (os.path.join(folder(), name + ".png") for name in ("quiet", "message"))
+    shoot(quiet, view)
+    gltf._show("glTF, 'glitter': glints or lights are left out: found a horse, expected a number")
+    yield 1.5
+    shoot(loud, view)
+    changed = numpy.abs(pixels_of(loud) - pixels_of(quiet)).max(axis=-1) > 0.05
+    rows, columns = changed.any(axis=1).sum(), changed.any(axis=0).sum()
+    assert rows > 30 and columns > 300, f"a message of {columns} x {rows} pixels"
+    assert gltf.problems
+
+
+def script():
+    material = set_up()
+    yield 0.5
+    yield from spheres_show_a_material(material)
+    yield from escape_stops_a_job()
+    yield from hooks_open_a_message()
+
+
+window_case.run("window", script)
