@@ -122,9 +122,9 @@ static void prepare_materials(double size)
     for (int i = 0; i < (int)size; ++i) {
         const scene_material flakes = scenes_flakes(0.3F + 0.3F * (float)i / (float)size, 1e5F * (float)(1 + i % 10));
         const float half = 1.0F / (float)columns;
+        const int column = i % columns, row = i / columns;
         float place[16];
-        scenes_translation(place, half * (float)(2 * (i % columns) + 1) - 1.0F, 0.0F,
-                           half * (float)(2 * (i / columns) + 1) - 1.0F);
+        scenes_translation(place, half * (float)(2 * column + 1) - 1.0F, 0.0F, half * (float)(2 * row + 1) - 1.0F);
         scenes_add_instance(&stage, scenes_add_square(&stage, scenes_add_material(&stage, &flakes), half), place, i);
     }
 }
@@ -173,7 +173,8 @@ static void prepare_texels(double size)
 static void write_vertices(FILE *file, uint32_t side)
 {
     for (uint32_t k = 0; k < side * side; ++k) {
-        const double x = 2.0 * (double)(k % side) / (side - 1) - 1.0, z = 2.0 * (double)(k / side) / (side - 1) - 1.0;
+        const uint32_t column = k % side, row = k / side;
+        const double x = 2.0 * column / (side - 1) - 1.0, z = 2.0 * row / (side - 1) - 1.0;
         const float p[3] = { (float)x, (float)(0.05 * sin(9.0 * x) * cos(7.0 * z)), (float)z };
         fwrite(p, sizeof p, 1, file);
     }
