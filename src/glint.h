@@ -206,14 +206,15 @@ typedef struct glint_material_options {
     glint_example example;             /* for GLINT_MODEL_EXAMPLE */
     glint_layers layers;               /* for GLINT_MODEL_LAYERED */
     glint_area_light_method area_light_method;
-    /* What need not be counted; counting only. Relative standard deviations of one evaluation, [0, 1e6]; 0: count all.
+    /* What need not be counted. Relative standard deviations of one evaluation, [0, 1e6]; 0: count all.
      *
-     * smooth_deviation  Where the facets under the footprint vary by less than about this, 1 / sqrt(N p), the smooth
-     *                   value stands for them. From there up to twice as much they are blended in, and what is left out
-     *                   never varies by more than this. The mean stays.
-     * draw_deviation    Where one of the model's 48 realisations varies by less than this, 3 / sqrt(N p), one stands
-     * for all; glint_footprint.draw chooses, and the mean over draws is the sum of all. Not of facets of different
-     * colours. */
+     * smooth_deviation  Counting, explicit, dictionary. Where the facets under the footprint vary by less than about
+     *                   this, 1 / sqrt(N p), the smooth value stands for them. From there up to twice as much they are
+     *                   blended in, and what is left out never varies by more than this. The mean stays. Sampling keeps
+     *                   all facets.
+     * draw_deviation    Counting. Where one of the model's 48 realisations varies by less than this, 3 / sqrt(N p), one
+     *                   stands for all; glint_footprint.draw chooses, and the mean over draws is the sum of all. Not of
+     *                   facets of different colours. */
     float smooth_deviation, draw_deviation;
 } glint_material_options;
 

@@ -1,9 +1,5 @@
 /* glint plan: what a render would do, what it would leave out, why, and what each costs. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "cli/render.h"
+#include "cli/plan_table.h"
 
 static const argument_syntax syntax = {
     .command = "glint plan",
@@ -12,16 +8,8 @@ static const argument_syntax syntax = {
     .operands_min = 1,
     .operands_max = 1,
     .rules = render_rules + RENDER_OWN_RULES,
-    .rule_count = RENDER_RULE_COUNT - RENDER_OWN_RULES,
+    .rule_count = RENDER_RULE_COUNT - RENDER_OWN_RULES + PLAN_OWN_RULES,
 };
-
-static const char *material_name(const scene *s, int32_t index)
-{
-    if (index < 0)
-        return "";
-    const char *const name = s->materials[index].name;
-    return name != NULL && name[0] != '\0' ? name : "(no name)";
-}
 
 /* ---- for programs ---- */
 
@@ -76,49 +64,6 @@ void plan_warn(const glint_plan *plan, double budget, report *r)
         report_warning(r, "--accuracy %g is not met: what is left out comes to %.2g", budget, (double)out.error);
 }
 
-static void print_percent(double share)
-{
-    if (!(share > 0.0))
-        printf("%6s", "-");
-    else if (share < 0.0005)
-        printf("%6s", "<.1 %");
-    else
-        printf("%4.*f %%", share < 0.0995 ? 1 : 0, 100.0 * share);
-}
-
-static void print_decision(const glint_decision *d, const scene *s)
-{
-    printf("%-16.16s  %-12s  %-3s  %-11s ", d->material < 0 ? "(picture)" : material_name(s, d->material),
-           glint_effect_name(d->effect), d->is_on ? "on" : "off", d->choice);
-    print_percent((double)d->time_share);
-    printf("  ");
-    print_percent((double)d->error);
-    printf("  %s\n", d->reason);
-}
-
-static void print_table(const glint_plan *plan, const scene *s, const render_values *v)
-{
-    const glint_plan_outcome out = glint_plan_result(plan);
-    const double samples = (double)v->size[0] * (double)v->size[1] * (double)v->spp;
-    printf("%-16s  %-12s  %-3s  %-11s %6s  %6s  %s\n", "material", "effect", "", "choice", "time", "error", "why");
-    for (int on = 1; on >= 0; --on)
-        for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i)
-            if ((glint_plan_decision(plan, i)->is_on != 0) == (on != 0))
-                print_decision(glint_plan_decision(plan, i), s);
-    printf("\nabout %.3g us a sample, %.3g s of one core in all; error of what is left out %.2g, noise of %lld samples "
-           "about %.2g\n",
-           1e-3 * (double)out.ns_per_sample, 1e-9 * (double)out.ns_per_sample * samples, (double)out.error,
-           (long long)v->spp, (double)out.noise);
-    if (!(render_accuracy(v) > 0.0))
-        puts("nothing is left out");
-    else if (out.is_met)
-        printf("the budget of %g is met\n", render_accuracy(v));
-    else if (out.enough_samples > 0)
-        printf("the budget of %g is not met; --spp %u would do\n", render_accuracy(v), out.enough_samples);
-    else
-        printf("the budget of %g cannot be met\n", render_accuracy(v));
-}
-
 static int print_plan_document(const glint_plan *plan, const scene *s, const char *path, const render_values *v,
                                document *warnings)
 {
@@ -156,7 +101,7 @@ static int plan(const char *path, const render_values *v)
     } else if (v->json) {
         code = print_plan_document(made, &s, path, v, m.warnings);
     } else {
-        print_table(made, &s, v);
+        plan_print_table(made, &s, v);
         messages_end(&m);
     }
     glint_plan_destroy(made);

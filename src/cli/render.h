@@ -20,6 +20,7 @@ typedef struct render_values {
     int environment_background;                               /* 0 on, 1 off */
     int light_set;                                            /* 0: the file's own lights; then preview's sets */
     bool aov, json;
+    bool all; /* glint plan: every decision */
 } render_values;
 
 typedef struct render_record {
@@ -34,9 +35,10 @@ typedef struct render_record {
 
 /* ---- render_scene.c: what glint plan does as well ---- */
 
-/* All options of glint render; behind the first few, which are about its output, those of glint plan. */
-enum { RENDER_RULE_COUNT = 21, RENDER_OWN_RULES = 5 };
-extern const argument_rule render_rules[RENDER_RULE_COUNT];
+/* The options of glint render; behind the first few, which are about its output, those of glint plan; the last are
+ * plan's alone. */
+enum { RENDER_RULE_COUNT = 21, RENDER_OWN_RULES = 5, PLAN_OWN_RULES = 1 };
+extern const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES];
 render_values render_defaults(void);
 double render_accuracy(const render_values *v);
 

@@ -27,7 +27,7 @@ const char *render_facets_name(int index)
     return names[index];
 }
 
-const argument_rule render_rules[RENDER_RULE_COUNT] = {
+const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES] = {
     { .name = "output",
       .letter = 'o',
       .value = "OUT.exr|.png",
@@ -158,7 +158,9 @@ const argument_rule render_rules[RENDER_RULE_COUNT] = {
       .max = 4294967295.0,
       .target = AT(seed) },
     { .name = "json", .help = "print one JSON document about the render", .kind = ARGUMENT_FLAG, .target = AT(json) },
+    { .name = "all", .help = "every decision in a row of its own", .kind = ARGUMENT_FLAG, .target = AT(all) },
 };
+
 static bool refuse_camera(const scene *s, const char *wanted, report *r)
 {
     char names[512] = "";

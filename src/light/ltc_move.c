@@ -266,100 +266,100 @@ static void move_polygon(const ltc *l, const area_light *light, ltc_light *moved
 
 /* ---- cones over ellipses ---- */
 
-/* Scalar products of a rim c + cos t a + sin t b. */
-typedef struct rim_products {
-    double ca, cb, ab, aa, bb, cc;
-} rim_products;
-
-static double length2_at(const rim_products *p, const double turn[2])
+/* A point of the rim along the cone's axes: unit, by t. */
+static vec3d rim_at(const conic *c, double sine_x, double sine_y, double cosine, double sine)
 {
-    const double x = turn[0], y = turn[1];
-    return p->cc + x * (2.0 * p->ca + x * p->aa) + y * (2.0 * (p->cb + x * p->ab) + y * p->bb);
+    const double x = sine_x * cosine, y = sine_y * sine, z = sqrt(real_max(1.0 - x * x - y * y, 0.0));
+    return vec3d_add(vec3d_scale(c->axis_z, z), vec3d_mad(vec3d_scale(c->axis_x, x), c->axis_y, y));
 }
 
-/* One step of Newton's method towards where z^2 / |rim|^2 is greatest and the rim closest to the pole, if it leads
- * there. */
-static void approach_pole(vec3d c, vec3d a, vec3d b, const rim_products *p, double turn[2])
+/* Goes from (cos t, sin t) one step of Newton's method towards where the rim is highest and so closest to the pole, if
+ * it leads there. */
+static void approach_pole(const conic *c, double a, double b, double turn[2])
 {
-    const double x = turn[0], y = turn[1], z = c.z + x * a.z + y * b.z, w = length2_at(p, turn);
-    const double dz = x * b.z - y * a.z, ddz = c.z - z;
-    /* Half of the derivatives of w. */
-    const double xy = x * y, tilt = (x - y) * (x + y), dw = x * p->cb - y * p->ca + tilt * p->ab + xy * (p->bb - p->aa);
-    const double ddw = tilt * (p->bb - p->aa) - 4.0 * xy * p->ab - (x * p->ca + y * p->cb);
-    const double slope = dz * w - z * dw, change = ddz * w + dz * dw - z * ddw;
+    const double x = a * turn[0], y = b * turn[1], z = sqrt(real_max(1.0 - x * x - y * y, 1e-12));
+    const double dx = -a * turn[1], dy = b * turn[0], dz = -(x * dx + y * dy) / z;
+    const double ddz = -(dx * dx + dy * dy - x * x - y * y + dz * dz) / z;
+    const double slope = dx * c->axis_x.z + dy * c->axis_y.z + dz * c->axis_z.z;
+    const double change = -x * c->axis_x.z - y * c->axis_y.z + ddz * c->axis_z.z;
     if (!(change < 0.0))
         return;
     const double step = real_max(-0.5, real_min(0.5, -slope / change)), in = 1.0 / sqrt(1.0 + step * step);
-    const double next[2] = { (x - step * y) * in, (y + step * x) * in };
-    const double height = c.z + next[0] * a.z + next[1] * b.z;
-    if (height > 0.0 && height * height * w > z * z * length2_at(p, next)) {
+    const double next[2] = { (turn[0] - step * turn[1]) * in, (turn[1] + step * turn[0]) * in };
+    if (rim_at(c, a, b, next[0], next[1]).z > rim_at(c, a, b, turn[0], turn[1]).z) {
         turn[0] = next[0];
         turn[1] = next[1];
     }
 }
 
-/* From the highest point of the rim, or from the one that lies towards the pole in its plane. */
-static void face_pole(vec3d c, vec3d a, vec3d b, double px, double py, double turn[2])
+/* Where the rim faces the pole: from the point that lies towards it, seen along the axis, or the one that leans towards
+ * it. */
+static void face_pole(const conic *c, double a, double b, double turn[2])
 {
-    const rim_products p = { vec3d_dot(c, a), vec3d_dot(c, b), vec3d_dot(a, b),
-                             vec3d_dot(a, a), vec3d_dot(b, b), vec3d_dot(c, c) };
-    const double reach2 = px * px + py * py, in = reach2 > 1e-200 ? 1.0 / sqrt(reach2) : 0.0;
-    const double other[2] = { px * in, py * in };
-    const double z = c.z + turn[0] * a.z + turn[1] * b.z, other_z = c.z + other[0] * a.z + other[1] * b.z;
-    if (other_z > 0.0 && other_z * other_z * length2_at(&p, turn) > z * z * length2_at(&p, other)) {
-        turn[0] = other[0];
-        turn[1] = other[1];
+    const double x = c->axis_x.z, y = c->axis_y.z;
+    const double other[2] = { x * a, y * b },
+                 in = 1.0 / sqrt(real_max(other[0] * other[0] + other[1] * other[1], 1e-200));
+    if (rim_at(c, a, b, other[0] * in, other[1] * in).z > rim_at(c, a, b, turn[0], turn[1]).z) {
+        turn[0] = other[0] * in;
+        turn[1] = other[1] * in;
     }
-    approach_pole(c, a, b, &p, turn);
+    approach_pole(c, a, b, turn);
 }
 
-/* A cone with the rim center + cos t x + sin t y, of any size, whose share is known: its apex, which is the pole or the
- * point of the rim that faces it, and apex . (rim x rim') in parts. turn: cos t and sin t where the rim is highest. */
-static void set_rim(vec3d center, vec3d x, vec3d y, double turn[2], ltc_light *moved)
+/* Axes and apex of a cone whose share is known; turn: cos t and sin t of the apex, or where the pole is within, of
+ * where the rim lies towards it. */
+static void set_rim(const conic *c, double a, double b, double turn[2], ltc_light *moved)
 {
-    const double size2 = vec3d_dot(center, center) + vec3d_dot(x, x) + vec3d_dot(y, y);
-    const double scale = 1.0 / sqrt(size2); /* floats will square them */
-    const vec3d c = vec3d_scale(center, scale), a = vec3d_scale(x, scale), b = vec3d_scale(y, scale);
-    const vec3d ab = vec3d_cross(a, b), bc = vec3d_cross(b, c), ca = vec3d_cross(c, a);
-    const double weight = (vec3d_dot(c, ab) < 0.0 ? -1.0 : 1.0) / moved->share;
-    /* The pole is (c ab.z + a bc.z + b ca.z) / volume. */
-    const double depth = weight * ab.z, reach2 = bc.z * bc.z + ca.z * ca.z;
+    /* The pole is within if x^2 / a^2 + y^2 / b^2 <= 1 seen along the axis. */
+    const double x = c->axis_x.z * b, y = c->axis_y.z * a, reach2 = x * x + y * y;
+    const double in_reach = reach2 > 1e-200 ? 1.0 / sqrt(reach2) : 0.0, in = 1.0 / moved->share;
     vec3d apex = { 0.0, 0.0, 1.0 };
-    if (!(depth > 0.0 && reach2 <= ab.z * ab.z)) {
-        face_pole(c, a, b, weight * bc.z, weight * ca.z, turn);
-        apex = vec3d_normalize(vec3d_add(c, vec3d_mad(vec3d_scale(a, turn[0]), b, turn[1])));
+    turn[0] = in_reach > 0.0 ? x * in_reach : 1.0;
+    turn[1] = y * in_reach;
+    if (!(c->axis_z.z > 0.0 && reach2 <= a * a * b * b)) {
+        face_pole(c, a, b, turn);
+        apex = rim_at(c, a, b, turn[0], turn[1]);
     }
     moved->apex = vec3d_narrow(apex);
-    moved->center = vec3d_narrow(c);
-    moved->axis_x = vec3d_narrow(a);
-    moved->axis_y = vec3d_narrow(b);
-    moved->turn[0] = (float)(weight * vec3d_dot(apex, ab));
-    moved->turn[1] = (float)(-weight * vec3d_dot(apex, bc));
-    moved->turn[2] = (float)(-weight * vec3d_dot(apex, ca));
+    moved->axis_x = vec3d_narrow(c->axis_x);
+    moved->axis_y = vec3d_narrow(c->axis_y);
+    moved->axis_z = vec3d_narrow(c->axis_z);
+    moved->sine_x = (float)a;
+    moved->sine_y = (float)b;
+    moved->apex_in_axes = (vec3){ (float)(in * vec3d_dot(apex, c->axis_x)), (float)(in * vec3d_dot(apex, c->axis_y)),
+                                  (float)(in * vec3d_dot(apex, c->axis_z)) };
     moved->arc_count = CONIC_ARCS;
 }
 
-static void set_arc(ltc_light *moved, int i, double cosine, double sine)
+static void set_arc(ltc_light *moved, int i, double cosine, double sine, double half_turns)
 {
     moved->arc[i][0] = (float)cosine;
     moved->arc[i][1] = (float)sine;
+    moved->half_turns[i] = (float)half_turns;
+}
+
+/* The sine of the half angle with this tangent. */
+static double sine_of(double tangent)
+{
+    return tangent / sqrt(1.0 + tangent * tangent);
 }
 
 static void move_whole_cone(const ltc *l, const area_light *light, ltc_light *moved)
 {
-    const vec3d c = ltc_transform(l, light->span[0]), x = ltc_transform(l, light->span[1]),
-                y = ltc_transform(l, light->span[2]);
-    moved->share = real_min(conic_whole_form_factor(c, x, y), 1.0);
+    conic c;
+    if (!conic_make(&c, ltc_transform(l, light->span[0]), ltc_transform(l, light->span[1]),
+                    ltc_transform(l, light->span[2])))
+        return;
+    const double a = sine_of(c.a), b = sine_of(c.b);
+    moved->share = real_min(a * b * c.axis_z.z, 1.0); /* as conic_moment has it */
     if (!(moved->share > LTC_LEAST_SHARE))
         return;
-    const double top2 = x.z * x.z + y.z * y.z, in = top2 > 1e-200 ? 1.0 / sqrt(top2) : 0.0;
-    double turn[2] = { in > 0.0 ? x.z * in : 1.0, y.z * in };
-    set_rim(c, x, y, turn, moved);
-    set_arc(moved, 0, turn[0], turn[1]);
-    set_arc(moved, 1, -turn[1], turn[0]);
-    set_arc(moved, 2, -turn[0], -turn[1]);
-    set_arc(moved, 3, turn[1], -turn[0]);
-    moved->half_turns = 0.5F;
+    double turn[2];
+    set_rim(&c, a, b, turn, moved);
+    set_arc(moved, 0, turn[0], turn[1], 0.5);
+    set_arc(moved, 1, -turn[1], turn[0], 0.5);
+    set_arc(moved, 2, -turn[0], -turn[1], 0.5);
+    set_arc(moved, 3, turn[1], -turn[0], 0.5);
 }
 
 static void set_corner(ltc_light *moved, int i, vec3d v)
@@ -397,17 +397,29 @@ static void move_cut_cone(const ltc *l, const area_light *light, ltc_light *move
     if (!area_measure(&cut))
         return;
     const conic *c = &cut.cone;
+    const double a = sine_of(c->a), b = sine_of(c->b);
     moved->share = real_min(cut.moment.z * (1.0 / REAL_PI), 1.0);
     if (!(moved->share > LTC_LEAST_SHARE))
         return;
-    double turn[2] = { c->node[2][0], c->node[2][1] };
-    set_rim(c->axis_z, vec3d_scale(c->axis_x, c->a), vec3d_scale(c->axis_y, c->b), turn, moved);
-    for (int i = 0; i < CONIC_ARCS; i++)
-        set_arc(moved, i, c->node[i][0], c->node[i][1]);
-    /* The nodes halve the whole arc, and its halves. */
-    const double *from = c->node[0], *to = c->node[1];
-    moved->half_turns =
-        (float)(real_atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]) * (1.0 / REAL_PI));
+    double turn[2], node[3][2];
+    set_rim(c, a, b, turn, moved);
+    /* From one end over the highest point to the other, which the cone has by the tangents. */
+    for (int i = 0; i < 3; i++) {
+        const double x = c->node[2 * i][0] * c->a / a, y = c->node[2 * i][1] * c->b / b, in = 1.0 / sqrt(x * x + y * y);
+        node[i][0] = x * in;
+        node[i][1] = y * in;
+    }
+    for (int i = 0; i < 2; i++) {
+        const double *from = node[i], *to = node[i + 1];
+        double angle = real_atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
+        angle = angle < 0.0 ? angle + 2.0 * REAL_PI : angle;
+        const double half = 0.5 * angle / REAL_PI;
+        const double mx = from[0] + to[0], my = from[1] + to[1], length = sqrt(mx * mx + my * my);
+        /* Half a turn has its middle to the left. */
+        const double mid_x = length > 1e-9 ? mx / length : -from[1], mid_y = length > 1e-9 ? my / length : from[0];
+        set_arc(moved, 2 * i, from[0], from[1], half);
+        set_arc(moved, 2 * i + 1, mid_x, mid_y, half);
+    }
     if (c->is_cut)
         set_horizon(&cut, moved);
 }

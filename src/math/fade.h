@@ -7,6 +7,8 @@
 #ifndef MATH_FADE_H
 #define MATH_FADE_H
 
+#include <math.h>
+
 #define FADE_PEAK 1.0811F
 
 /* The share that shows of what has this standard deviation. A limit of 0: all. */
@@ -18,6 +20,12 @@ static inline float fade_share(float deviation, float limit)
     if (!(t > 0.0F))
         return 0.0F;
     return t < 1.0F ? t * t * (3.0F - 2.0F * t) : 1.0F;
+}
+
+/* Of the sum of so many lit facets, N p, relative. Of less light than a float holds nothing is seen. */
+static inline float fade_deviation(float lit)
+{
+    return lit > 1e-30F ? 1.0F / sqrtf(lit) : 1e15F;
 }
 
 #endif

@@ -244,9 +244,8 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
     for (size_t i = 0; i < number; i++) {
         value[i] = (glint_value){ 0 };
         const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lit.p[i];
-        /* Of less light than a float holds nothing is seen. */
-        const float deviation = facets * p > 1e-30F ? 1.0F / sqrtf(facets * p) : facets > 0.0F ? 1e15F : 0.0F;
-        const float share = deviation > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
+        const float deviation = fade_deviation(facets * p);
+        const float share = facets > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
         if (!(share > 0.0F)) {
             combine(&lit, i, 1.0F, smooth_factor, &value[i]);
             value[i].facet_count = facets;

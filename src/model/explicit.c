@@ -13,6 +13,7 @@
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
+#include "math/fade.h"
 #include "math/float_bits.h"
 #include "math/hash.h"
 #include "model/area.h"
@@ -106,6 +107,13 @@ static coverage_pixel pixel_of(const model_query *q)
     };
 }
 
+/* What shows of facets that vary little. */
+static float shown_share(const model_query *q, const glint_value *value)
+{
+    return fade_share(fade_deviation(value->facet_count * value->lit_probability),
+                      q->material->options.smooth_deviation);
+}
+
 /* The smooth value where there is nothing discrete to see, or too much. */
 static void explicit_eval_area(const model_query *q, glint_value *value)
 {
@@ -122,8 +130,9 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
     const double area = coverage_area(&pixel);
     value->facet_count = (float)area;
     value->lit_probability = smooth.lit_probability;
-    value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
-    if (!(area > 0.0) || value->over_limit)
+    const float shown = shown_share(q, value);
+    value->over_limit = shown > 0.0F && coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
+    if (!(area > 0.0) || !(shown > 0.0F) || value->over_limit)
         return;
     const int is_tinted = tint_is_asked(&q->material->options);
     const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
@@ -134,7 +143,7 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
                     .area = &light };
     s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
     coverage_each(&pixel, add_facet, &s);
-    const float g = q->surface->discreteness;
+    const float g = shown * q->surface->discreteness;
     const float discrete = q->material->options.coverage * (1.0F - clamp_to(q->area_light->hidden, 0.0F, 1.0F));
     for (int c = 0; c < 3; c++)
         value->rgb[c] = (1.0F - g) * smooth.specular[c] + g * discrete * (float)s.rgb[c] + smooth.diffuse[c];
@@ -157,8 +166,9 @@ static void explicit_eval(const model_query *q, glint_value *value)
         const float solid_angle = lobe_lit_solid_angle(q, &lobe);
         value->facet_count = (float)area;
         value->lit_probability = lobe_lit_probability(q, &lobe, solid_angle);
-        value->over_limit = coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
-        if (area > 0.0 && !value->over_limit) {
+        const float shown = shown_share(q, value);
+        value->over_limit = shown > 0.0F && coverage_cell_bound(&pixel) > (double)q->material->options.facet_limit;
+        if (area > 0.0 && shown > 0.0F && !value->over_limit) {
             const int is_tinted = tint_is_asked(&q->material->options);
             const tint_palette palette = is_tinted ? tint_palette_of(&q->material->options) : (tint_palette){ 0 };
             /* Cap of solid angle 2 pi (1 - cos): the chord to its rim is 2 sin(half the angle), squared solid_angle /
@@ -171,7 +181,7 @@ static void explicit_eval(const model_query *q, glint_value *value)
                             .seed = q->material->options.seed + q->footprint->seed };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
             coverage_each(&pixel, add_facet, &s);
-            const float g = q->surface->discreteness;
+            const float g = shown * q->surface->discreteness;
             for (int c = 0; c < 3; c++) {
                 const float discrete = (float)(s.density[is_tinted ? c : 0] / (double)q->solid_angle_sr);
                 density[c] = (1.0F - g) * density[c] + g * discrete;

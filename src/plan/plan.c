@@ -182,11 +182,11 @@ static void decide_facets(glint_plan *p)
 {
     int draws = 0;
     for (uint32_t m = 0; m < p->summary.material_count; m++)
-        draws += plan_counts(p, m) && !plan_is_surrounded(p, m);
+        draws += plan_draws(p, m);
     const int can_draw = draws > 0 && p->summary.samples_per_pixel > p->summary.tiles_per_pixel;
     const double each = plan_left(p, can_draw ? 2 : 1);
     for (uint32_t m = 0; m < p->summary.material_count; m++)
-        plan_facets(p, m, each, can_draw && !plan_is_surrounded(p, m) ? each : 0.0);
+        plan_facets(p, m, each, can_draw && plan_draws(p, m) ? each : 0.0);
 }
 
 static void share_out_time(glint_plan *p)

@@ -38,8 +38,10 @@ double plan_bin_middle(uint32_t bin);
 
 /* plan_facets.c: FACETS, LOOKUPS and COLORS of a material. deviation: of a pixel, that each of the two may leave. */
 void plan_facets(glint_plan *p, uint32_t material, double facets_error, double draws_error);
-/* Whether facets of any material are counted by a model that can leave some out. */
-int plan_counts(const glint_plan *p, uint32_t material);
+/* Whether a material has facets that fade into its smooth light where they are many, and whether single draws can stand
+ * for them. */
+int plan_fades(const glint_plan *p, uint32_t material);
+int plan_draws(const glint_plan *p, uint32_t material);
 /* Whether a light of this material is sampled and not evaluated. */
 int plan_is_surrounded(const glint_plan *p, uint32_t material);
 

@@ -11,22 +11,53 @@
 
 #include "math/fade.h"
 
-static int is_counting(const glint_material_options *o)
-{
-    return o && o->model == GLINT_MODEL_COUNTING;
-}
-
 static int is_discrete(const glint_material_options *o)
 {
     return o && o->model != GLINT_MODEL_SMOOTH;
 }
 
-int plan_counts(const glint_plan *p, uint32_t material)
+/* Whether the facets of a layer, if it has any, fade into its smooth light. A map's mean is not smooth, and the lobes
+ * of rough facets that are visited one by one widen the highlight. */
+static int is_fading(const glint_material_options *o)
+{
+    if (!is_discrete(o))
+        return 1;
+    return o->model == GLINT_MODEL_COUNTING || o->model == GLINT_MODEL_DICTIONARY ||
+           (o->model == GLINT_MODEL_EXPLICIT && !(o->facet_alpha > 0.0F));
+}
+
+static int is_drawable(const glint_material_options *o)
+{
+    return !is_discrete(o) || o->model == GLINT_MODEL_COUNTING;
+}
+
+/* Without facets it is the smooth model. A dictionary hides facets behind others in another way. */
+static int is_smooth_without(const glint_material_options *o)
+{
+    return !o || o->model != GLINT_MODEL_DICTIONARY;
+}
+
+/* The explicit model knows all of a cap, of which the smooth value takes the middle. Half vectors turn by half of the
+ * light's radius r, and GGX falls by (r / 2 alpha)^2 in the mean over a disc around its top. A renderer takes lights as
+ * caps up to a radius of 0.2 alpha, and up to 0.02 whatever alpha is. */
+static double explicit_bias(const glint_plan_material *m)
+{
+    const int is_explicit = (is_discrete(m->base) && m->base->model == GLINT_MODEL_EXPLICIT) ||
+                            (is_discrete(m->coat) && m->coat->model == GLINT_MODEL_EXPLICIT);
+    const double over_alpha = 0.01 / (double)m->alpha.least;
+    return is_explicit ? fmax(0.01, over_alpha * over_alpha) : 0.0;
+}
+
+int plan_fades(const glint_plan *p, uint32_t material)
 {
     const glint_plan_material *const m = &p->summary.materials[material];
-    const int others =
-        (is_discrete(m->base) && !is_counting(m->base)) || (is_discrete(m->coat) && !is_counting(m->coat));
-    return !others && (is_counting(m->base) || is_counting(m->coat));
+    return is_fading(m->base) && is_fading(m->coat) && (is_discrete(m->base) || is_discrete(m->coat));
+}
+
+int plan_draws(const glint_plan *p, uint32_t material)
+{
+    const glint_plan_material *const m = &p->summary.materials[material];
+    return plan_fades(p, material) && is_drawable(m->base) && is_drawable(m->coat) && !plan_is_surrounded(p, material);
 }
 
 int plan_is_surrounded(const glint_plan *p, uint32_t material)
@@ -65,10 +96,18 @@ static double tint_variance(const glint_material_options *o)
     return (1.0 + most) * (1.0 + 0.5 * v * v) - 1.0;
 }
 
-static double material_tint_variance(const glint_plan_material *m)
+/* A density whose log4 varies by a deviation d from cell to cell: the mean of 1 / N is exp((d ln 4)^2 / 2) / N. */
+static double density_variance(const glint_material_options *o)
 {
-    const double base = tint_variance(m->base);
-    return m->coat ? fmax(base, tint_variance(m->coat)) : base;
+    const double d = is_discrete(o) && o->model == GLINT_MODEL_DICTIONARY ? (double)o->density_variation : 0.0;
+    return exp(0.5 * d * d * 1.3862943611198906 * 1.3862943611198906);
+}
+
+/* How much more the facets of a material vary than 1 / (N p). */
+static double unevenness(const glint_plan_material *m)
+{
+    const double base = (1.0 + tint_variance(m->base)) * density_variance(m->base);
+    return m->coat ? fmax(base, (1.0 + tint_variance(m->coat)) * density_variance(m->coat)) : base;
 }
 
 static void decide_colors(glint_plan *p, uint32_t material)
@@ -100,22 +139,25 @@ typedef struct tally {
 /* How a pixel's deviations become those of a tile and of a sample. */
 typedef struct limits {
     double pixel;  /* variance of a pixel over 1 / (N p) */
-    float fade;    /* deviation of a pixel, from which facets are left out */
+    float fade;    /* deviation of a pixel, below which facets are left out */
     float drawing; /* deviation that draws may add to a pixel */
     double draw;   /* variance that they do add over 1 / (N p) */
+    double bias;   /* of the smooth light */
+    double most;   /* a pixel varies as if no more facets were lit, however large the light */
 } limits;
 
 static tally tally_pair(const glint_plan_pair *pair, const limits *l)
 {
     tally t = { .least = HUGE_VAL };
     for (uint32_t i = 0; i < GLINT_PLAN_BINS; i++) {
-        const double share = (double)pair->share[i], rate = (double)pair->rate[i], lit = plan_bin_middle(i);
+        const double share = (double)pair->share[i], rate = (double)pair->rate[i];
+        const double lit = fmin(plan_bin_middle(i), l->most);
         if (!(rate > 0.0))
             continue;
         t.least = fmin(t.least, lit * 0.70710678);
         t.most = fmax(t.most, lit * 1.41421356);
         const double deviation = sqrt(l->pixel / lit), shown = (double)fade_share((float)deviation, l->fade);
-        t.variance += share * (1.0 - shown) * (1.0 - shown) * deviation * deviation;
+        t.variance += share * (1.0 - shown) * (1.0 - shown) * (deviation * deviation + l->bias * l->bias);
         if (!(shown > 0.0)) {
             t.faded += rate;
         } else if (l->draw / lit < (double)l->drawing * (double)l->drawing) {
@@ -153,21 +195,38 @@ static const char *light_name(const glint_plan *p, uint32_t light)
     return name ? name : "a light";
 }
 
+/* The lobes of a dictionary are as wide as if one facet in 64 were lit: model/dictionary.c. */
+static double most_lit(const glint_plan_material *m)
+{
+    const int has_lobes = (is_discrete(m->base) && m->base->model == GLINT_MODEL_DICTIONARY) ||
+                          (is_discrete(m->coat) && m->coat->model == GLINT_MODEL_DICTIONARY);
+    return has_lobes ? (double)m->facets_per_m2.least * (double)m->footprint_m2.least / 64.0 : HUGE_VAL;
+}
+
+/* Facets that one evaluation visits; of other models the cost does not depend on them. The pixel in the middle of what
+ * is seen stands for all. */
+static float visits(const glint_plan *p, uint32_t material, const glint_material_options *o)
+{
+    const glint_plan_material *const m = &p->summary.materials[material];
+    if (o->model != GLINT_MODEL_EXPLICIT)
+        return 1.0F;
+    const float middle =
+        sqrtf(m->facets_per_m2.least * m->footprint_m2.least) * sqrtf(m->facets_per_m2.most * m->footprint_m2.most);
+    return fmaxf(middle / (float)p->summary.tiles_per_pixel, 1.0F);
+}
+
 /* A model that counts all or nothing. */
 static void decide_whole(glint_plan *p, const glint_plan_pair *pair, const glint_material_options *o)
 {
     glint_decision d = {
         GLINT_EFFECT_FACETS, (int32_t)pair->material, (int32_t)pair->light, 1, "", "", 0.0F, 0.0F, 0.0F
     };
-    const double each = o->model == GLINT_MODEL_EXPLICIT
-                            ? (double)p->summary.materials[pair->material].facets_per_m2.most *
-                                  (double)p->summary.materials[pair->material].footprint_m2.most /
-                                  p->summary.samples_per_pixel
-                            : 1.0;
     snprintf(d.choice, sizeof(d.choice), "%s", glint_model_name(o->model));
-    d.ns_per_sample = pair->seen * plan_costs[cost_of(o)] * (float)fmax(each, 1.0);
-    plan_decide(p, d, "under %s: what the %s model shows is taken whole", light_name(p, pair->light),
-                glint_model_name(o->model));
+    d.ns_per_sample = pair->seen * plan_costs[cost_of(o)] * visits(p, pair->material, o);
+    if (o->model == GLINT_MODEL_EXPLICIT)
+        plan_decide(p, d, "under %s: the lobes of rough facets are not their smooth light", light_name(p, pair->light));
+    else
+        plan_decide(p, d, "under %s: the mean of a map is not a smooth light", light_name(p, pair->light));
 }
 
 static void decide_pair(glint_plan *p, const glint_plan_pair *pair, const limits *l, int is_smooth)
@@ -184,8 +243,11 @@ static void decide_pair(glint_plan *p, const glint_plan_pair *pair, const limits
         plan_decide(p, d, "%s lights none of its facets in what the camera sees", light_name(p, pair->light));
         return;
     }
+    if (discrete_layer(m)->model != GLINT_MODEL_COUNTING)
+        snprintf(d.choice, sizeof(d.choice), "%s", glint_model_name(discrete_layer(m)->model));
     const double enough = l->fade > 0.0F ? l->pixel / ((double)l->fade * (double)l->fade) : HUGE_VAL;
-    const float kernel = plan_costs[cost_of(discrete_layer(m))] - plan_costs[PLAN_COST_SMOOTH];
+    const glint_material_options *const o = discrete_layer(m);
+    const float kernel = plan_costs[cost_of(o)] * visits(p, pair->material, o) - plan_costs[PLAN_COST_SMOOTH];
     d.ns_per_sample =
         (float)t.counted * kernel + (float)t.drawn * (plan_costs[PLAN_COST_DRAWN] - plan_costs[PLAN_COST_SMOOTH]) +
         (is_smooth ? 0.0F : (float)t.faded * (plan_costs[PLAN_COST_FADED] - plan_costs[PLAN_COST_SMOOTH]));
@@ -241,33 +303,37 @@ static int is_all_smooth(const glint_plan *p, uint32_t material, const limits *l
 void plan_facets(glint_plan *p, uint32_t material, double facets_error, double draws_error)
 {
     const glint_plan_material *const m = &p->summary.materials[material];
-    const double tints = material_tint_variance(m), spp = p->summary.samples_per_pixel;
-    const double tiles = p->summary.tiles_per_pixel;
-    const limits l = { PLAN_PIXEL_VARIANCE * (1.0 + tints), (float)facets_error,
-                       tints > 0.0 ? 0.0F : (float)draws_error, PLAN_DRAW_VARIANCE * tiles / spp };
+    const double bias = explicit_bias(m), fading = sqrt(fmax(facets_error * facets_error - bias * bias, 0.0));
+    const double spp = p->summary.samples_per_pixel, tiles = p->summary.tiles_per_pixel;
+    const int is_even = !is_tinted(m->base) && !is_tinted(m->coat);
+    const limits l = { PLAN_PIXEL_VARIANCE * unevenness(m), (float)fading, is_even ? (float)draws_error : 0.0F,
+                       PLAN_DRAW_VARIANCE * tiles / spp,    bias,          most_lit(m) };
     double drawn = 0.0;
     decide_colors(p, material);
     if (!is_discrete(m->base) && !is_discrete(m->coat))
         return;
-    const int counts = plan_counts(p, material), is_smooth = counts && is_all_smooth(p, material, &l);
+    const int fades = plan_fades(p, material);
+    const int is_smooth =
+        fades && is_smooth_without(m->base) && is_smooth_without(m->coat) && is_all_smooth(p, material, &l);
     for (uint32_t i = 0; i < p->summary.pair_count; i++) {
         const glint_plan_pair *const pair = &p->summary.pairs[i];
         if (pair->material != material)
             continue;
-        if (!counts) {
+        if (!fades) {
             decide_whole(p, pair, discrete_layer(m));
             continue;
         }
         decide_pair(p, pair, &l, is_smooth);
         drawn += tally_pair(pair, &l).drawn;
     }
-    if (!counts)
+    if (!fades)
         return;
-    decide_lookups(p, material, &l, drawn);
+    if (is_drawable(m->base) && is_drawable(m->coat))
+        decide_lookups(p, material, &l, drawn);
     /* A sample of surroundings is not one of many of its kind: it may stand for the whole pixel. */
     const double alike = plan_is_surrounded(p, material) ? 1.0 : tiles;
     plan_material *const to = &p->materials[material];
     to->is_smooth = is_smooth;
-    to->smooth_deviation = (float)(facets_error * sqrt(alike / l.pixel));
+    to->smooth_deviation = (float)(fading * sqrt(alike / l.pixel));
     to->draw_deviation = drawn > 0.0 ? (float)(draws_error * sqrt(spp)) : 0.0F;
 }

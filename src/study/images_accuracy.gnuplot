@@ -1,5 +1,5 @@
 stats 'images_accuracy.csv' using 6 every ::1 nooutput
-set multiplot layout 1,2 title sprintf("--accuracy: what it leaves out of a picture, and the time that it saves\n{/*0.8 truth: the same %d samples without a budget or with the smallest; bars: one standard error}", STATS_max)
+set multiplot layout 1,2 title sprintf("--accuracy: what it leaves out of a picture, and the time that it saves\n{/*0.8 truth: the same %d samples without a budget; bars: one standard error}", STATS_max)
 set logscale x
 set bars 0.6
 set logscale y

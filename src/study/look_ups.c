@@ -108,7 +108,8 @@ static void report_patch(study_run *run, const patch_error found[WAYS][STEPS])
     study_setting settings[WAYS * STEPS];
     for (int i = 0; i < WAYS * STEPS; i++) {
         const patch_error *const e = &found[i / STEPS][i % STEPS];
-        snprintf(names[i], sizeof names[i], "%s; %d samples", way_names[i / STEPS], samples_of[i % STEPS]);
+        snprintf(names[i], sizeof names[i], "%s; %d sample%s", way_names[i / STEPS], samples_of[i % STEPS],
+                 samples_of[i % STEPS] == 1 ? "" : "s");
         settings[i] = (study_setting){ names[i], e->cost_ns * 1e-3, e->rms, e->bar, false };
     }
     static const study_dial dial = {

@@ -40,7 +40,15 @@ static void plan_is_a_table_and_a_document(void **state)
     assert_says(o.out, "panel");
     assert_says(o.out, "facets");
     assert_says(o.out, "budget of 0.02");
+    assert_says(o.out, "off everywhere: ");
+    /* What the scene does not have has no row, but on demand. */
+    assert_null(strstr(o.out, "it has no normal map"));
     outcome_free(&o);
+    o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--material", "panel=sand", "--all");
+    assert_exit(&o, 0);
+    assert_says(o.out, "it has no normal map");
+    outcome_free(&o);
+    assert_refused(glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--all"), 2, "unknown option '--all'");
     o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--accuracy", "0.1", "--json");
     json_t *d = printed_document(&o);
     assert_true(json_number_value(json_object_get(d, "accuracy")) == 0.1);

@@ -9,13 +9,15 @@
 typedef struct plan_setting {
     const char *name;
     float roughness, facets_per_m2;
-    float half_size; /* of the square that the camera sees, m: a pixel is a 16th of it */
+    float half_size; /* of the square that the camera sees, m: a pixel is a 12th of it */
     bool coated, tinted, stretched, blocked, from_aside;
     scene_light_kind light;
     int bounces;
+    glint_model model; /* 0: as the material asks for */
+    float density_variation;
 } plan_setting;
 
-/* Lit facets of a pixel from hundredths to a million: half_size 0.1 m makes pixels of 6 mm. */
+/* Lit facets of a pixel from hundredths to a million: half_size 0.1 m makes pixels of 8 mm. */
 static const plan_setting settings[] = {
     { "sparse", 0.5F, 1e5F, 0.1F, .light = SCENE_LIGHT_DIRECTIONAL },
     { "some", 0.7F, 1e8F, 0.1F, .light = SCENE_LIGHT_POINT },
@@ -28,6 +30,8 @@ static const plan_setting settings[] = {
     { "window", 0.6F, 1e8F, 0.1F, .light = SCENE_LIGHT_RECT },
     { "shadow", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT },
     { "bounce", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT, .bounces = 1 },
+    { "dictionary", 0.6F, 1e9F, 0.1F, .light = SCENE_LIGHT_POINT, .model = GLINT_MODEL_DICTIONARY },
+    { "uneven", 0.6F, 1e10F, 0.1F, .light = SCENE_LIGHT_POINT, .density_variation = 0.5F },
 };
 enum { SETTING_COUNT = sizeof settings / sizeof settings[0] };
 
@@ -52,14 +56,21 @@ static scene_material material_of(const plan_setting *c)
         m.glint.color_variation = 0.7F;
     if (c->stretched)
         m.anisotropy = 0.6F;
+    m.glint.density_variation = c->density_variation;
     return m;
+}
+
+static bool is_dictionary(const plan_setting *c)
+{
+    return c->model == GLINT_MODEL_DICTIONARY || c->density_variation > 0.0F;
 }
 
 static void add_light(const plan_setting *c, scene *s)
 {
     static const float from[3] = { 0.1F, 0.5F, 0.15F };
     scene_light *const l = scenes_add_light(s, c->light, from, 1.0F);
-    l->radius_m = 0.05F;
+    /* A dictionary takes lights that show their shape point by point, at a price. */
+    l->radius_m = is_dictionary(c) ? 0.02F : 0.05F;
     if (c->light == SCENE_LIGHT_DIRECTIONAL)
         l->angular_diameter_rad = 0.1F;
     l->width_m = 0.3F;
@@ -82,8 +93,10 @@ scene plan_case(int index, scene_camera *camera, preview_options *options)
     const float eye[3] = { 0.0F, 1.0F, c->from_aside ? 1.5F : 1e-4F }, target[3] = { 0.0F, 0.0F, 0.0F };
     *camera = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, c->half_size);
     *options = (preview_options)PREVIEW_OPTIONS_INIT;
-    options->width = options->height = 32;
+    options->width = options->height = 24;
     options->bounces = c->bounces;
+    if (c->model != GLINT_MODEL_SMOOTH)
+        options->model = (int)c->model;
     options->camera = camera;
     options->sky = &black;
     return s;

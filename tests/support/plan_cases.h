@@ -7,7 +7,7 @@
 
 int plan_case_count(void);
 const char *plan_case_name(int index);
-/* A scene and options that look at it: 32 x 32 pixels, no bounces, black around. The options point to the scene and to
+/* A scene and options that look at it: 24 x 24 pixels, no bounces, black around. The options point to the scene and to
  * *camera. Freed by scene_free. */
 scene plan_case(int index, scene_camera *camera, preview_options *options);
 
