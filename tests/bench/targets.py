@@ -13,11 +13,15 @@ import sys
 
 
 def read(folder, name):
+    """None: there is no such measurement, or it was cut short."""
     path = os.path.join(folder, name)
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
-        return json.load(file)
+        try:
+            return json.load(file)
+        except json.JSONDecodeError:
+            return None
 
 
 def row_of(document, table, name, key):
