@@ -57,6 +57,15 @@ typedef struct ltc_light {
     float half_turns[CONIC_ARCS]; /* the length of each in t, over pi */
 } ltc_light;
 
+/* bend of a side, by y = 1 - the cosine of its angle in [0, 1]: y (1 + y (2 + y 3)). A fit to the nodes of quadrature.
+ */
+#define LTC_BEND_1 0.3333
+#define LTC_BEND_2 0.0857
+#define LTC_BEND_3 0.0487
+
+/* What ltc_move does with a cone. */
+void ltc_move_round(const ltc *l, const area_light *light, ltc_light *moved);
+
 /* Of a light that need not have been measured. 0: it is too small. */
 typedef int ltc_move(const ltc *l, const area_light *light, ltc_light *moved);
 
