@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "preview/hash.h"
 
@@ -267,6 +268,7 @@ bool trace_occluded(const trace_scene *t, const trace_ray *ray)
 static bool set_packet(const trace_ray *const rays[TRACE_PACKET], struct RTCRay16 *to, int valid[TRACE_PACKET])
 {
     bool is_any = false;
+    memset(to, 0, sizeof *to); /* narrower machines look at the numbers of lanes without a ray, too */
     for (unsigned i = 0; i < TRACE_PACKET; ++i) {
         valid[i] = rays[i] != NULL ? -1 : 0;
         if (rays[i] == NULL)

@@ -9,7 +9,7 @@ set xtics 1, 10
 set title 'pixels, 4 samples each'
 plot of('resolution') using 2:3 with linespoints linetype 1 title 'render', x * 6e-6 with lines linecolor rgb '#AAAAAA' dashtype 2 title 'slope 1'
 set title 'lights (32 x 32 pixels)'
-plot [1:1e3] [.001:1] of('lights') using 2:3 with linespoints linetype 1 title 'render', x * 6e-3 with lines linecolor rgb '#AAAAAA' dashtype 2 title 'slope 1'
+plot [1:1e3] [.001:10] of('lights') using 2:3 with linespoints linetype 1 title 'render', x * 6e-3 with lines linecolor rgb '#AAAAAA' dashtype 2 title 'slope 1'
 set title 'triangles'
 plot of('triangles') using 2:3 with linespoints linetype 1 title 'load', of('triangles') using 2:5 with linespoints linetype 3 title 'Embree', \
     x * 6e-7 with lines linecolor rgb '#AAAAAA' dashtype 2 title 'slope 1'

@@ -84,9 +84,9 @@ static bool can_light(const light *l, const shade_point *p, vec3 position)
     return light_is_area(l) ? shade_faces_area(p, &area) : shade_faces(p, view.wi);
 }
 
-/* 4^9 samples: the sampler then puts one into every interval of 2^-18, so that a light of probability P is chosen
- * P 2^18 times, but for two at the edges of its interval. */
-#define SAMPLES (1U << 18)
+/* 4^8 samples: the sampler then puts one into every interval of 2^-16, so that a light of probability P is chosen
+ * P 2^16 times, but for two at the edges of its interval. */
+#define SAMPLES (1U << 16)
 
 static void assert_choice_is_fair(const light_tree *t, const light *lights, int count, uint64_t *random)
 {
@@ -220,8 +220,8 @@ static void assert_mean_is_the_sum(int light_count)
 static void a_few_of_many_lights_have_the_mean_of_all(void **state)
 {
     (void)state;
-    static const int counts[] = { 1, 16, 17, 64, 256, 1024 };
-    for (int k = 0; k < 6; ++k)
+    static const int counts[] = { 1, 16, 17, 64, 1024 };
+    for (int k = 0; k < 5; ++k)
         assert_mean_is_the_sum(counts[k]);
 }
 
