@@ -436,14 +436,15 @@ typedef struct glint_batch {
     const float *wo[3], *wi[3]; /* x, y and z apart */
     const float *solid_angle_sr;
     const glint_surface *surfaces;       /* NULL: the material's own everywhere */
-    float *rgb[3];                       /* out */
+    float *rgb[3];                       /* out; may be NULL where values is not */
     const glint_area_light *area_lights; /* NULL: caps. Else wi and solid_angle_sr are not read, and may be NULL */
     const uint32_t *draw;                /* NULL: 0 everywhere */
+    glint_value *values;                 /* out: all that glint_eval_value knows. NULL: not asked for */
 } glint_batch;
 
 #define GLINT_BATCH_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0, 0                 \
+        sizeof(glint_batch), 0, 0, 0, 0, 0, 0, 0, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, { 0, 0, 0 }, 0, 0, 0              \
     }
 
 /* glint_eval, or glint_eval_area, for every entry, bit for bit, and faster. GLINT_ERROR_ARGUMENT when an array is

@@ -7,11 +7,12 @@ enum { CHUNK = 64 };
 
 static int has_all(const glint_batch *b)
 {
-    const void *const arrays[] = { b->u,     b->v,     b->dudx,  b->dudy,   b->dvdx,   b->dvdy,
-                                   b->wo[0], b->wo[1], b->wo[2], b->rgb[0], b->rgb[1], b->rgb[2] };
+    const void *const arrays[] = { b->u, b->v, b->dudx, b->dudy, b->dvdx, b->dvdy, b->wo[0], b->wo[1], b->wo[2] };
     for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); i++)
         if (!arrays[i])
             return 0;
+    if (!b->values && !(b->rgb[0] && b->rgb[1] && b->rgb[2]))
+        return 0;
     return b->area_lights || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
 }
 
@@ -61,6 +62,26 @@ static int fill(model_query *q, checked *c, glint_footprint *f, const glint_mate
     return 1;
 }
 
+static void clear(const glint_batch *b, size_t first, size_t count)
+{
+    if (b->values)
+        memset(b->values + first, 0, count * sizeof(*b->values));
+    for (int k = 0; k < 3; k++)
+        if (b->rgb[k])
+            memset(b->rgb[k] + first, 0, count * sizeof(float));
+}
+
+static void put(const glint_batch *b, size_t i, const glint_value *value)
+{
+    if (b->values) {
+        b->values[i] = *value;
+        value_make_finite(&b->values[i]);
+    }
+    for (int k = 0; k < 3; k++)
+        if (b->rgb[k])
+            b->rgb[k][i] = value_finite(value->rgb[k]);
+}
+
 static void eval_chunk(const glint_material *material, const glint_batch *b, size_t first, size_t count)
 {
     checked c[CHUNK];
@@ -76,14 +97,12 @@ static void eval_chunk(const glint_material *material, const glint_batch *b, siz
     for (size_t j = 0; j < count; j++)
         if (ok[j] && fill(&query[lit], &c[lit], &footprint[lit], material, b, first + j))
             index[lit++] = first + j;
-    for (int k = 0; k < 3; k++)
-        memset(b->rgb[k] + first, 0, count * sizeof(float));
+    clear(b, first, count);
     if (lit == 0)
         return;
     material->model->eval_many(query, lit, value);
     for (size_t j = 0; j < lit; j++)
-        for (int k = 0; k < 3; k++)
-            b->rgb[k][index[j]] = value_finite(value[j].rgb[k]);
+        put(b, index[j], &value[j]);
 }
 
 glint_result glint_eval_batch(const glint_material *material, const glint_batch *batch)

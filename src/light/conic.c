@@ -195,20 +195,3 @@ vec3d conic_moment(const conic *c)
     const vec3d line = { 0.0, 0.0, 0.5 * real_atan2(cross, from.x * from.x + from.y * from.y + along) };
     return vec3d_add(arc, line);
 }
-
-double conic_whole_form_factor(vec3d center, vec3d half_x, vec3d half_y)
-{
-    /* Eigenvalues -m, p and q of K: the moment is pi sqrt(p q / ((m + p) (m + q))) times the axis, whose height squared
-     * is a minor of K + m over (m + p) (m + q). p q = volume^2 / m. */
-    dual k;
-    if (!dual_of(center, half_x, half_y, &k))
-        return 0.0;
-    const double m = -negative_eigenvalue(&k);
-    if (!(m > 1e-30))
-        return 0.0;
-    const double xx = k.a.x * k.a.x + k.b.x * k.b.x - k.c.x * k.c.x, yy = k.a.y * k.a.y + k.b.y * k.b.y - k.c.y * k.c.y;
-    const double zz = k.a.z * k.a.z + k.b.z * k.b.z - k.c.z * k.c.z, xy = k.a.x * k.a.y + k.b.x * k.b.y - k.c.x * k.c.y;
-    const double volume = vec3d_dot(k.a, vec3d_cross(k.b, k.c)), both = volume * volume / m;
-    const double sums = m * (xx + yy + zz + 2.0 * m) + both, minor = (xx + m) * (yy + m) - xy * xy;
-    return sums > 0.0 && minor > 0.0 ? sqrt(both * minor) / sums : 0.0;
-}

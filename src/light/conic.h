@@ -17,9 +17,6 @@ typedef struct conic {
 /* The cone over center + x half_x + y half_y, x^2 + y^2 <= 1. 0: it has no inside. */
 int conic_make(conic *c, vec3d center, vec3d half_x, vec3d half_y);
 
-/* Integral of the cosine over a cone that lies above the horizon, over pi, without its axes; 0: it has no inside. */
-double conic_whole_form_factor(vec3d center, vec3d half_x, vec3d half_y);
-
 /* Finds the part above the plane z = 0. 0: there is none. */
 int conic_cut(conic *c);
 

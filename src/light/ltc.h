@@ -47,12 +47,24 @@ typedef struct ltc_light {
     float x[LTC_MOST_SIDES + 4], y[LTC_MOST_SIDES + 4], z[LTC_MOST_SIDES + 4]; /* corners, unit */
     float volume[LTC_MOST_SIDES];                                              /* apex . (corner i x corner i + 1) */
     float bend[LTC_MOST_SIDES]; /* corner + (t + bend t (1 - t) (1 - 2 t)) (next - corner) is even in angles */
-    int arc_count;              /* arcs center + cos t x + sin t y */
-    vec3 center, axis_x, axis_y;
-    float turn[3];            /* apex . (rim x rim') = turn 0 + turn 1 cos t + turn 2 sin t */
-    float arc[CONIC_ARCS][2]; /* cos t and sin t where they begin */
-    float half_turns;         /* the length of each in t, over pi */
+    /* Of a round light: arcs of x = sine_x cos t, y = sine_y sin t along its own axes, and what is left of one along z,
+     * so that they are even in angles however long the light is. */
+    int arc_count;
+    vec3 axis_x, axis_y, axis_z;
+    float sine_x, sine_y;
+    vec3 apex_in_axes;            /* over the share */
+    float arc[CONIC_ARCS][2];     /* cos t and sin t where they begin */
+    float half_turns[CONIC_ARCS]; /* the length of each in t, over pi */
 } ltc_light;
+
+/* bend of a side, by y = 1 - the cosine of its angle in [0, 1]: y (1 + y (2 + y 3)). A fit to the nodes of quadrature.
+ */
+#define LTC_BEND_1 0.3333
+#define LTC_BEND_2 0.0857
+#define LTC_BEND_3 0.0487
+
+/* What ltc_move does with a cone. */
+void ltc_move_round(const ltc *l, const area_light *light, ltc_light *moved);
 
 /* Of a light that need not have been measured. 0: it is too small. */
 typedef int ltc_move(const ltc *l, const area_light *light, ltc_light *moved);

@@ -154,11 +154,10 @@ static inline double4 angle_over_sine(double4 cosine)
     return choose4(is_sharp, p, REAL_PI / sqrt4(max4(y * (2.0 - y), splat4(1e-30))) - p);
 }
 
-/* Of a side, by its angle's cosine in [0, 1]: a fit to half the angle and to the nodes of quadrature. */
 static inline double4 bend_of(double4 cosine)
 {
     const double4 y = 1.0 - cosine;
-    return y * (0.3333 + y * (0.0857 + y * 0.0487));
+    return y * (LTC_BEND_1 + y * (LTC_BEND_2 + y * LTC_BEND_3));
 }
 
 /* The sides, corner i x corner i + 1. */
@@ -264,154 +263,6 @@ static void move_polygon(const ltc *l, const area_light *light, ltc_light *moved
     }
 }
 
-/* ---- cones over ellipses ---- */
-
-/* Scalar products of a rim c + cos t a + sin t b. */
-typedef struct rim_products {
-    double ca, cb, ab, aa, bb, cc;
-} rim_products;
-
-static double length2_at(const rim_products *p, const double turn[2])
-{
-    const double x = turn[0], y = turn[1];
-    return p->cc + x * (2.0 * p->ca + x * p->aa) + y * (2.0 * (p->cb + x * p->ab) + y * p->bb);
-}
-
-/* One step of Newton's method towards where z^2 / |rim|^2 is greatest and the rim closest to the pole, if it leads
- * there. */
-static void approach_pole(vec3d c, vec3d a, vec3d b, const rim_products *p, double turn[2])
-{
-    const double x = turn[0], y = turn[1], z = c.z + x * a.z + y * b.z, w = length2_at(p, turn);
-    const double dz = x * b.z - y * a.z, ddz = c.z - z;
-    /* Half of the derivatives of w. */
-    const double xy = x * y, tilt = (x - y) * (x + y), dw = x * p->cb - y * p->ca + tilt * p->ab + xy * (p->bb - p->aa);
-    const double ddw = tilt * (p->bb - p->aa) - 4.0 * xy * p->ab - (x * p->ca + y * p->cb);
-    const double slope = dz * w - z * dw, change = ddz * w + dz * dw - z * ddw;
-    if (!(change < 0.0))
-        return;
-    const double step = real_max(-0.5, real_min(0.5, -slope / change)), in = 1.0 / sqrt(1.0 + step * step);
-    const double next[2] = { (x - step * y) * in, (y + step * x) * in };
-    const double height = c.z + next[0] * a.z + next[1] * b.z;
-    if (height > 0.0 && height * height * w > z * z * length2_at(p, next)) {
-        turn[0] = next[0];
-        turn[1] = next[1];
-    }
-}
-
-/* From the highest point of the rim, or from the one that lies towards the pole in its plane. */
-static void face_pole(vec3d c, vec3d a, vec3d b, double px, double py, double turn[2])
-{
-    const rim_products p = { vec3d_dot(c, a), vec3d_dot(c, b), vec3d_dot(a, b),
-                             vec3d_dot(a, a), vec3d_dot(b, b), vec3d_dot(c, c) };
-    const double reach2 = px * px + py * py, in = reach2 > 1e-200 ? 1.0 / sqrt(reach2) : 0.0;
-    const double other[2] = { px * in, py * in };
-    const double z = c.z + turn[0] * a.z + turn[1] * b.z, other_z = c.z + other[0] * a.z + other[1] * b.z;
-    if (other_z > 0.0 && other_z * other_z * length2_at(&p, turn) > z * z * length2_at(&p, other)) {
-        turn[0] = other[0];
-        turn[1] = other[1];
-    }
-    approach_pole(c, a, b, &p, turn);
-}
-
-/* A cone with the rim center + cos t x + sin t y, of any size, whose share is known: its apex, which is the pole or the
- * point of the rim that faces it, and apex . (rim x rim') in parts. turn: cos t and sin t where the rim is highest. */
-static void set_rim(vec3d center, vec3d x, vec3d y, double turn[2], ltc_light *moved)
-{
-    const double size2 = vec3d_dot(center, center) + vec3d_dot(x, x) + vec3d_dot(y, y);
-    const double scale = 1.0 / sqrt(size2); /* floats will square them */
-    const vec3d c = vec3d_scale(center, scale), a = vec3d_scale(x, scale), b = vec3d_scale(y, scale);
-    const vec3d ab = vec3d_cross(a, b), bc = vec3d_cross(b, c), ca = vec3d_cross(c, a);
-    const double weight = (vec3d_dot(c, ab) < 0.0 ? -1.0 : 1.0) / moved->share;
-    /* The pole is (c ab.z + a bc.z + b ca.z) / volume. */
-    const double depth = weight * ab.z, reach2 = bc.z * bc.z + ca.z * ca.z;
-    vec3d apex = { 0.0, 0.0, 1.0 };
-    if (!(depth > 0.0 && reach2 <= ab.z * ab.z)) {
-        face_pole(c, a, b, weight * bc.z, weight * ca.z, turn);
-        apex = vec3d_normalize(vec3d_add(c, vec3d_mad(vec3d_scale(a, turn[0]), b, turn[1])));
-    }
-    moved->apex = vec3d_narrow(apex);
-    moved->center = vec3d_narrow(c);
-    moved->axis_x = vec3d_narrow(a);
-    moved->axis_y = vec3d_narrow(b);
-    moved->turn[0] = (float)(weight * vec3d_dot(apex, ab));
-    moved->turn[1] = (float)(-weight * vec3d_dot(apex, bc));
-    moved->turn[2] = (float)(-weight * vec3d_dot(apex, ca));
-    moved->arc_count = CONIC_ARCS;
-}
-
-static void set_arc(ltc_light *moved, int i, double cosine, double sine)
-{
-    moved->arc[i][0] = (float)cosine;
-    moved->arc[i][1] = (float)sine;
-}
-
-static void move_whole_cone(const ltc *l, const area_light *light, ltc_light *moved)
-{
-    const vec3d c = ltc_transform(l, light->span[0]), x = ltc_transform(l, light->span[1]),
-                y = ltc_transform(l, light->span[2]);
-    moved->share = real_min(conic_whole_form_factor(c, x, y), 1.0);
-    if (!(moved->share > LTC_LEAST_SHARE))
-        return;
-    const double top2 = x.z * x.z + y.z * y.z, in = top2 > 1e-200 ? 1.0 / sqrt(top2) : 0.0;
-    double turn[2] = { in > 0.0 ? x.z * in : 1.0, y.z * in };
-    set_rim(c, x, y, turn, moved);
-    set_arc(moved, 0, turn[0], turn[1]);
-    set_arc(moved, 1, -turn[1], turn[0]);
-    set_arc(moved, 2, -turn[0], -turn[1]);
-    set_arc(moved, 3, turn[1], -turn[0]);
-    moved->half_turns = 0.5F;
-}
-
-static void set_corner(ltc_light *moved, int i, vec3d v)
-{
-    const vec3 unit = vec3d_narrow(v);
-    moved->x[i] = unit.x;
-    moved->y[i] = unit.y;
-    moved->z[i] = unit.z;
-}
-
-/* The horizon in two halves, between the ends of the arc. */
-static void set_horizon(const area_light *cut, ltc_light *moved)
-{
-    vec3d end[3], derivative;
-    area_boundary(cut, CONIC_ARCS, 0.0, &end[0], &derivative);
-    area_boundary(cut, CONIC_ARCS, 1.0, &end[2], &derivative);
-    end[0] = vec3d_normalize(end[0]);
-    end[2] = vec3d_normalize(end[2]);
-    end[1] = vec3d_normalize(vec3d_add(end[0], end[2]));
-    for (int i = 0; i < 3; i++)
-        set_corner(moved, i, end[i]);
-    for (int i = 0; i < 2; i++) {
-        const vec3d normal = vec3d_cross(end[i], end[i + 1]);
-        moved->volume[i] = (float)(fabs(vec3d_dot(vec3d_of(moved->apex), normal)) / moved->share);
-        moved->bend[i] = (float)bend_of(splat4(vec3d_dot(end[i], end[i + 1])))[0];
-        moved->side[moved->side_count++] = i;
-    }
-}
-
-static void move_cut_cone(const ltc *l, const area_light *light, ltc_light *moved)
-{
-    area_light cut;
-    area_make_cone(&cut, ltc_transform(l, light->span[0]), ltc_transform(l, light->span[1]),
-                   ltc_transform(l, light->span[2]));
-    if (!area_measure(&cut))
-        return;
-    const conic *c = &cut.cone;
-    moved->share = real_min(cut.moment.z * (1.0 / REAL_PI), 1.0);
-    if (!(moved->share > LTC_LEAST_SHARE))
-        return;
-    double turn[2] = { c->node[2][0], c->node[2][1] };
-    set_rim(c->axis_z, vec3d_scale(c->axis_x, c->a), vec3d_scale(c->axis_y, c->b), turn, moved);
-    for (int i = 0; i < CONIC_ARCS; i++)
-        set_arc(moved, i, c->node[i][0], c->node[i][1]);
-    /* The nodes halve the whole arc, and its halves. */
-    const double *from = c->node[0], *to = c->node[1];
-    moved->half_turns =
-        (float)(real_atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]) * (1.0 / REAL_PI));
-    if (c->is_cut)
-        set_horizon(&cut, moved);
-}
-
 #if defined(__AVX2__) && defined(GLINT_LTC_AVX2)
 #define LTC_MOVE ltc_move_avx2
 #else
@@ -424,9 +275,7 @@ int LTC_MOVE(const ltc *l, const area_light *light, ltc_light *moved)
     moved->share = 0.0;
     if (light->kind == AREA_POLYGON)
         move_polygon(l, light, moved);
-    else if (light->is_whole)
-        move_whole_cone(l, light, moved);
     else
-        move_cut_cone(l, light, moved);
+        ltc_move_round(l, light, moved);
     return moved->side_count + moved->arc_count > 0;
 }

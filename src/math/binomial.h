@@ -54,7 +54,7 @@ static inline vint binomial_threshold(vfloat scaled)
     return (vint)((vuint)to_int(max_f(scaled, splat(0.0F))) << 1 ^ 0x80000000U);
 }
 
-/* The same for any chance up to one. One is missed once in 2^25. */
+/* The same for any chance up to one. One is missed once in 2^24. */
 static inline vint binomial_first_threshold(vfloat scaled)
 {
     /* The smaller one by its bits: GCC 12 converts both and then chooses, and 2^31 is no integer to convert. */

@@ -19,18 +19,13 @@ static inline vuint hash_full(vuint x)
     return x ^ (x >> 16);
 }
 
-/* Enough for the top bits when x already is a hash plus a small lattice step. times: HASH_TOP, or less than nothing of
- * it for what is less than nothing of the hash. */
+/* Enough for the top bits when x already is a hash plus a small lattice step. times: HASH_TOP; with its negative comes
+ * the negative of the hash, for nothing. */
 #define HASH_TOP 0x846ca68bU
 
-static inline vuint hash_top_times(vuint x, vuint times)
+static inline vuint hash_top(vuint x, vuint times)
 {
     return (x ^ x >> 15) * times;
-}
-
-static inline vuint hash_top(vuint x)
-{
-    return (x ^ x >> 15) * HASH_TOP;
 }
 
 #endif

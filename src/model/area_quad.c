@@ -83,12 +83,16 @@ static inline vvec3 rim_of_side(const ltc_light *l, int side, vfloat t, vfloat *
 static inline vvec3 rim_of_arc(const ltc_light *l, int i, vfloat t, vfloat *turn)
 {
     vfloat s, c;
-    sincos_pi(l->half_turns * t, &s, &c);
-    const vfloat x = l->arc[i][0] * c - l->arc[i][1] * s, y = l->arc[i][1] * c + l->arc[i][0] * s;
-    const vfloat worth = l->turn[0] + (l->turn[1] * x + l->turn[2] * y);
-    *turn = (MATH_PI * l->half_turns) * max_f(worth, splat(0.0F)); /* below it by rounding */
-    return (vvec3){ l->center.x + x * l->axis_x.x + y * l->axis_y.x, l->center.y + x * l->axis_x.y + y * l->axis_y.y,
-                    l->center.z + x * l->axis_x.z + y * l->axis_y.z };
+    sincos_pi(l->half_turns[i] * t, &s, &c);
+    const vfloat cosine = l->arc[i][0] * c - l->arc[i][1] * s, sine = l->arc[i][1] * c + l->arc[i][0] * s;
+    const vfloat x = l->sine_x * cosine, y = l->sine_y * sine, dx = -l->sine_x * sine, dy = l->sine_y * cosine;
+    const vfloat z = sqrt_f(max_f(1.0F - x * x - y * y, splat(1e-12F))), dz = -(x * dx + y * dy) / z;
+    const vec3 m = l->apex_in_axes;
+    const vfloat worth = m.x * (y * dz - z * dy) + m.y * (z * dx - x * dz) + m.z * (x * dy - y * dx);
+    *turn = (MATH_PI * l->half_turns[i]) * max_f(worth, splat(0.0F)); /* below it by rounding */
+    return (vvec3){ x * l->axis_x.x + y * l->axis_y.x + z * l->axis_z.x,
+                    x * l->axis_x.y + y * l->axis_y.y + z * l->axis_z.y,
+                    x * l->axis_x.z + y * l->axis_y.z + z * l->axis_z.z };
 }
 
 /* Gauss's, of four nodes along u and two along t: one in the mean. And over them, what makes shares of the points equal

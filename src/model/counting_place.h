@@ -135,10 +135,10 @@ static inline void angular_corners(const angular_place *p, vuint cell, vfloat ce
     weight[3] = fx * up;
 
     const vuint corner = (cell + (vuint)(p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y + p->number;
-    uniform[0] = (vint)hash_top_times(corner, hash);
-    uniform[1] = (vint)hash_top_times(corner + HASH_X, hash);
-    uniform[2] = (vint)hash_top_times(corner + HASH_Y, hash);
-    uniform[3] = (vint)hash_top_times(corner + (HASH_X + HASH_Y), hash);
+    uniform[0] = (vint)hash_top(corner, hash);
+    uniform[1] = (vint)hash_top(corner + HASH_X, hash);
+    uniform[2] = (vint)hash_top(corner + HASH_Y, hash);
+    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y), hash);
 }
 
 /* What binomial_start_of adds to a chance, from a cell. */
@@ -164,14 +164,16 @@ static inline __attribute__((always_inline)) void angular_draws_of(const angular
 #pragma GCC unroll 12
     for (int i = 0; i < GRID_CELLS * grids; i++)
         place[i] = angular_place_of(l, cell[i]);
-#pragma GCC unroll 12
-    for (int i = 0; i < GRID_CELLS * grids; i++) {
-        const int g = i / GRID_CELLS, c = i % GRID_CELLS;
-        angular_corners(&place[i], cell[i], cell_weight[i], hash[g], draws[g].uniform + 4 * c, draws[g].weight + 4 * c);
-    }
 #pragma GCC unroll 4
-    for (int g = 0; g < grids; g++)
+    for (int g = 0; g < grids; g++) {
+#pragma GCC unroll 3
+        for (int c = 0; c < GRID_CELLS; c++) {
+            const int i = GRID_CELLS * g + c;
+            angular_corners(&place[i], cell[i], cell_weight[i], hash[g], draws[g].uniform + 4 * c,
+                            draws[g].weight + 4 * c);
+        }
         draws[g].dither = angular_dither(cell[GRID_CELLS * g]);
+    }
 }
 
 /* How many facets realisations are drawn from. With more of them the weighted sum would be no float any more, and it

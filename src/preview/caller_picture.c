@@ -1,6 +1,5 @@
 /* The pictures of glint_preview.h, and what they would leave out. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -190,18 +189,11 @@ typedef struct lines {
     size_t length, room;
 } lines;
 
-static void add_line(lines *l, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add_line(lines *l, const char *format, ...)
+static void add_line(lines *l, const char *line)
 {
-    char line[512];
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    if (l->text == NULL || length < 0)
+    const size_t count = strlen(line);
+    if (l->text == NULL)
         return;
-    const size_t count = (size_t)length < sizeof line ? (size_t)length : sizeof line - 1;
     if (l->length + count + 1 > l->room) {
         l->room = 2 * (l->length + count + 1);
         char *const grown = realloc(l->text, l->room);
@@ -211,22 +203,36 @@ static void add_line(lines *l, const char *format, ...)
     }
     if (l->text == NULL)
         return;
-    memcpy(&l->text[l->length], line, count);
+    memcpy(&l->text[l->length], line, count + 1);
     l->length += count;
-    l->text[l->length] = '\0';
+}
+
+/* A field: tabs and the ends of lines are blanks in it. */
+static void copy_field(const char *from, char *to, size_t size)
+{
+    size_t i = 0;
+    for (; from[i] != '\0' && i + 1 < size; ++i)
+        to[i] = from[i];
+    to[i] = '\0';
+    for (i = strcspn(to, "\t\r\n"); to[i] != '\0'; i += strcspn(&to[i], "\t\r\n"))
+        to[i] = ' ';
 }
 
 /* The fields that the header lists. */
 static void write_plan(const glint_plan *plan, const scene *s, lines *l)
 {
+    char line[512], material[128];
     const glint_plan_outcome out = glint_plan_result(plan);
-    add_line(l, "%.9g\t%.9g\t%.9g\t%s\t%u\n", (double)out.ns_per_sample, (double)out.error, (double)out.noise,
-             out.is_met ? "met" : "missed", out.enough_samples);
+    snprintf(line, sizeof line, "%.9g\t%.9g\t%.9g\t%s\t%u\n", (double)out.ns_per_sample, (double)out.error,
+             (double)out.noise, out.is_met ? "met" : "missed", out.enough_samples);
+    add_line(l, line);
     for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i) {
         const glint_decision *const d = glint_plan_decision(plan, i);
         const char *const name = d->material >= 0 ? s->materials[d->material].name : NULL;
-        add_line(l, "%.128s\t%s\t%s\t%s\t%.9g\t%.9g\t%s\n", name != NULL ? name : "", glint_effect_name(d->effect),
+        copy_field(name != NULL ? name : "", material, sizeof material);
+        snprintf(line, sizeof line, "%s\t%s\t%s\t%s\t%.9g\t%.9g\t%s\n", material, glint_effect_name(d->effect),
                  d->is_on ? "on" : "off", d->choice, (double)d->time_share, (double)d->error, d->reason);
+        add_line(l, line);
     }
 }
 

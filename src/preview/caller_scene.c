@@ -240,16 +240,6 @@ bool caller_scene_make(const glint_preview_scene_options *o, caller_scene *c, re
     return true;
 }
 
-static void swap_bytes(void *a, void *b, size_t size)
-{
-    unsigned char *const x = a, *const y = b;
-    for (size_t i = 0; i < size; ++i) {
-        const unsigned char kept = x[i];
-        x[i] = y[i];
-        y[i] = kept;
-    }
-}
-
 /* An environment points to the map beside it. */
 static void point_to_own_map(caller_world *w)
 {
@@ -257,26 +247,39 @@ static void point_to_own_map(caller_world *w)
         w->environment.map = &w->map;
 }
 
-void caller_scene_swap(caller_scene *a, caller_scene *b, int parts)
+static void swap_worlds(caller_world *a, caller_world *b)
 {
-    scene *const x = &a->scene, *const y = &b->scene;
+    const caller_world kept = *a;
+    *a = *b;
+    *b = kept;
+    point_to_own_map(a);
+    point_to_own_map(b);
+}
+
+/* Of *to those parts become what they are in *from. */
+static void take_parts(scene *to, const scene *from, int parts)
+{
     if ((parts & GLINT_PREVIEW_MATERIALS) != 0) {
-        swap_bytes(&x->materials, &y->materials, sizeof x->materials);
-        swap_bytes(&x->material_count, &y->material_count, sizeof x->material_count);
+        to->materials = from->materials;
+        to->material_count = from->material_count;
     }
     if ((parts & GLINT_PREVIEW_IMAGES) != 0) {
-        swap_bytes(&x->images, &y->images, sizeof x->images);
-        swap_bytes(&x->image_count, &y->image_count, sizeof x->image_count);
+        to->images = from->images;
+        to->image_count = from->image_count;
     }
     if ((parts & GLINT_PREVIEW_LIGHTS) != 0) {
-        swap_bytes(&x->lights, &y->lights, sizeof x->lights);
-        swap_bytes(&x->light_count, &y->light_count, sizeof x->light_count);
+        to->lights = from->lights;
+        to->light_count = from->light_count;
     }
-    if ((parts & GLINT_PREVIEW_WORLD) != 0) {
-        swap_bytes(&a->world, &b->world, sizeof a->world);
-        point_to_own_map(&a->world);
-        point_to_own_map(&b->world);
-    }
+}
+
+void caller_scene_swap(caller_scene *a, caller_scene *b, int parts)
+{
+    const scene kept = a->scene;
+    take_parts(&a->scene, &b->scene, parts);
+    take_parts(&b->scene, &kept, parts);
+    if ((parts & GLINT_PREVIEW_WORLD) != 0)
+        swap_worlds(&a->world, &b->world);
 }
 
 /* What rays pass is decided in the tree. */

@@ -1,4 +1,5 @@
-/* Direct light in three steps: gather the lights that the point sees, evaluate the surface for each, add them up. */
+/* Direct light in three steps: gather the lights that a point sees, evaluate the surface for each, add them up. Of many
+ * points the shadow rays run side by side, and so does the evaluation. */
 #include "preview/direct.h"
 
 #include <math.h>
@@ -6,121 +7,190 @@
 #include "preview/area_shadow.h"
 #include "preview/choose_lights.h"
 
-typedef struct light_query {
-    light_view view;
-    shade_area area; /* where the light is seen as a shape */
-    bool is_area;
-    glint_value value;
-} light_query;
-
-static bool in_shadow(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
-                      uint32_t dimension, ray_counts *counts)
+/* The ray that a cap waits for, towards a place of the light. */
+static void aim(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
+                uint32_t dimension, trace_ray *ray, ray_counts *counts)
 {
-    double u[2];
-    if (l->unshadowed)
-        return false;
+    double u[2] = { 0.0, 0.0 };
     ++counts->shadow_rays;
-    trace_ray ray = { .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
-    sampler_pair(random, dimension, u);
-    light_pick(l, view, ray.origin, u, &ray.direction, &ray.far);
-    return trace_occluded(w->trace, &ray);
+    *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin) };
+    if (w->is_blended)
+        ray->random = sampler_bits(random, dimension);
+    if (light_is_soft(l))
+        sampler_pair(random, dimension, u);
+    light_pick(l, view, ray->origin, u, &ray->direction, &ray->far);
 }
 
-/* False: the light does not light the point. Inlined, so that scenes of a few lights do not pay for those of many. */
-static inline __attribute__((always_inline)) bool gather_light(const world *w, const hit *h, const shade_point *p,
-                                                               const sampler *random, uint32_t dimension, int index,
-                                                               bool thorough, light_query *q, ray_counts *counts)
+/* False: the light does not reach the point, and nothing has to be asked for it. */
+static bool gather_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                         const light *l, bool thorough, light_query *q, ray_counts *counts)
 {
-    const light *const l = &w->lights[index];
-    if (!light_see(l, h->position, &q->view))
+    light_view view;
+    if (!light_see(l, h->position, &view))
         return false;
-    const bool is_round = q->view.sine > 0.0 && shade_tells_shape(p, q->view.wi, q->view.sine);
-    q->is_area = light_is_area(l) || is_round;
-    if (is_round)
-        for (int c = 0; c < 3; ++c)
-            q->view.irradiance[c] *= (float)light_radiance_per_irradiance(&q->view);
-    dimension += (uint32_t)index;
-    return q->is_area ? area_light_reaches(w, h, p, l, &q->view, random, dimension, thorough, &q->area, counts)
-                      : shade_faces(p, q->view.wi) && !in_shadow(w, h, l, &q->view, random, dimension, counts);
+    const bool is_round = view.sine > 0.0 && shade_tells_shape(p, view.wi, view.sine);
+    const float scale = is_round ? (float)light_radiance_per_irradiance(&view) : 1.0F;
+    for (int c = 0; c < 3; ++c)
+        q->irradiance[c] = view.irradiance[c] * scale;
+    q->waits = false;
+    q->weight = 1.0F;
+    q->shade.point = p;
+    q->shade.is_area = is_round || light_is_area(l);
+    if (q->shade.is_area)
+        return area_light_reaches(w, h, p, l, &view, random, dimension, thorough, &q->shade.area, counts);
+    if (!shade_faces(p, view.wi))
+        return false;
+    q->shade.wi = view.wi;
+    q->shade.solid_angle_sr = view.solid_angle_sr;
+    q->waits = !l->unshadowed;
+    if (q->waits)
+        aim(w, h, l, &view, random, dimension, &q->shadow, counts);
+    return true;
 }
 
-static int gather(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                  bool thorough, light_query queries[MOST_LIGHTS], ray_counts *counts)
+static void count_evaluation(const shade_query *q, ray_counts *counts)
 {
-    int count = 0;
-    for (int i = 0; i < w->light_count; ++i)
-        count += gather_light(w, h, p, random, dimension, i, thorough, &queries[count], counts);
-    return count;
-}
-
-static void evaluate(const shade_point *p, light_query *queries, int count, ray_counts *counts)
-{
-    for (int i = 0; i < count; ++i) {
-        const glint_value *const value = &queries[i].value;
-        if (queries[i].is_area)
-            shade_eval_area(p, &queries[i].area, &queries[i].value);
-        else
-            shade_eval(p, queries[i].view.wi, queries[i].view.solid_angle_sr, &queries[i].value);
-        if (value->over_limit) {
-            ++counts->over_limit;
-            counts->most_facets = fmaxf(counts->most_facets, value->facet_count);
-        }
-    }
-    for (int i = 0; i < p->layer_count; ++i)
-        *(p->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals) += (uint64_t)count;
-}
-
-/* weights: what each stands for; NULL: for itself. */
-static inline __attribute__((always_inline)) void add_up(const light_query *queries, const float *weights, int count,
-                                                         const float throughput[3], radiance *sum,
-                                                         direct_facets *facets)
-{
-    float brightest = 0.0F;
-    for (int i = 0; i < count; ++i) {
-        const light_query *const q = &queries[i];
-        const float weight = weights != NULL ? weights[i] : 1.0F;
-        float total = 0.0F;
-        for (int c = 0; c < 3; ++c) {
-            const float incoming = throughput[c] * q->view.irradiance[c];
-            sum->discrete[c] += incoming * weight * q->value.rgb[c];
-            sum->smooth[c] += incoming * weight * q->value.smooth[c];
-            total += incoming * q->value.smooth[c];
-        }
-        if (facets != NULL && total > brightest) {
-            brightest = total;
-            *facets = (direct_facets){ q->value.facet_count, q->value.lit_probability };
-        }
+    for (int i = 0; i < q->point->layer_count; ++i)
+        ++*(q->point->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals);
+    if (q->value.over_limit) {
+        ++counts->over_limit;
+        counts->most_facets = fmaxf(counts->most_facets, q->value.facet_count);
     }
 }
 
-/* Lights that stand for all of them. */
-static void add_chosen_light(const world *w, const hit *h, const shade_point *p, const sampler *random,
-                             uint32_t dimension, const float throughput[3], radiance *sum, direct_facets *facets,
-                             ray_counts *counts)
+/* facets: of the light that is brightest so far; NULL: no one asks. */
+static void add_up(const light_query *q, const float throughput[3], radiance *sum, direct_facets *facets)
 {
-    chosen_light chosen[MOST_LIGHTS];
-    light_query queries[MOST_LIGHTS];
-    float weights[MOST_LIGHTS];
-    int count = 0;
-    const int chosen_count =
-        lights_choose(w->light_tree, p, h->position, random, dimension + (uint32_t)w->light_count, chosen);
-    for (int i = 0; i < chosen_count; ++i) {
-        weights[count] = 1.0F / chosen[i].probability;
-        count += gather_light(w, h, p, random, dimension, chosen[i].index, facets != NULL, &queries[count], counts);
+    const glint_value *const value = &q->shade.value;
+    float total = 0.0F;
+    for (int c = 0; c < 3; ++c) {
+        const float incoming = throughput[c] * q->irradiance[c];
+        sum->discrete[c] += incoming * q->weight * value->rgb[c];
+        sum->smooth[c] += incoming * q->weight * value->smooth[c];
+        total += incoming * value->smooth[c];
     }
-    evaluate(p, queries, count, counts);
-    add_up(queries, weights, count, throughput, sum, facets);
+    if (facets != NULL && total > facets->brightest)
+        *facets = (direct_facets){ value->facet_count, value->lit_probability, total };
+}
+
+/* One light at one point, from its ray to its sum. */
+static void add_light(const world *w, light_query *q, const float throughput[3], radiance *sum, direct_facets *facets,
+                      ray_counts *counts)
+{
+    shade_query *const s = &q->shade;
+    if (q->waits && trace_occluded(w->trace, &q->shadow))
+        return;
+    if (s->is_area)
+        shade_eval_area(s->point, &s->area, &s->value);
+    else
+        shade_eval(s->point, s->wi, s->solid_angle_sr, &s->value);
+    count_evaluation(s, counts);
+    add_up(q, throughput, sum, facets);
+}
+
+/* Lights that stand for all of them, of more than MOST_LIGHTS. */
+static int choose(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                  chosen_light chosen[MOST_LIGHTS])
+{
+    return lights_choose(w->light_tree, p, h->position, random, dimension + (uint32_t)w->light_count, chosen);
 }
 
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
 {
-    if (w->light_count > MOST_LIGHTS) {
-        add_chosen_light(w, h, p, random, dimension, throughput, sum, facets, counts);
-        return;
+    chosen_light chosen[MOST_LIGHTS];
+    light_query q;
+    const bool is_any = w->light_count > MOST_LIGHTS;
+    const int count = is_any ? choose(w, h, p, random, dimension, chosen) : w->light_count;
+    for (int i = 0; i < count; ++i) {
+        const int index = is_any ? chosen[i].index : i;
+        if (!gather_light(w, h, p, random, dimension + (uint32_t)index, &w->lights[index], facets != NULL, &q, counts))
+            continue;
+        if (is_any)
+            q.weight = 1.0F / chosen[i].probability;
+        add_light(w, &q, throughput, sum, facets, counts);
     }
-    light_query queries[MOST_LIGHTS];
-    const int count = gather(w, h, p, random, dimension, facets != NULL, queries, counts);
-    evaluate(p, queries, count, counts);
-    add_up(queries, NULL, count, throughput, sum, facets);
+}
+
+/* ---- many points ---- */
+
+static int gather_at(const world *w, const direct_point *p, uint32_t dimension, int index, light_query *q,
+                     ray_counts *counts)
+{
+    q->to = p;
+    return gather_light(w, p->hit, p->point, p->random, dimension + (uint32_t)index, &w->lights[index], true, q,
+                        counts);
+}
+
+/* Light by light, so that rays to one light run side by side. */
+static int gather_all(const world *w, const direct_point *points, int count, uint32_t dimension, light_query *queries,
+                      ray_counts *counts)
+{
+    int found = 0;
+    for (int i = 0; i < w->light_count; ++i)
+        for (int k = 0; k < count; ++k)
+            found += gather_at(w, &points[k], dimension, i, &queries[found], counts);
+    return found;
+}
+
+static int gather_chosen(const world *w, const direct_point *points, int count, uint32_t dimension,
+                         light_query *queries, ray_counts *counts)
+{
+    int found = 0;
+    for (int k = 0; k < count; ++k) {
+        const direct_point *const p = &points[k];
+        chosen_light chosen[MOST_LIGHTS];
+        const int chosen_count = choose(w, p->hit, p->point, p->random, dimension, chosen);
+        for (int i = 0; i < chosen_count; ++i) {
+            if (!gather_at(w, p, dimension, chosen[i].index, &queries[found], counts))
+                continue;
+            queries[found++].weight = 1.0F / chosen[i].probability;
+        }
+    }
+    return found;
+}
+
+/* Leaves those in the list that nothing stands before. */
+static int trace_shadows(const world *w, light_query *queries, int count, light_query **lit)
+{
+    int lit_count = 0;
+    for (int first = 0; first < count; first += TRACE_PACKET) {
+        const trace_ray *rays[TRACE_PACKET] = { NULL };
+        for (int i = first; i < count && i < first + TRACE_PACKET; ++i)
+            rays[i - first] = queries[i].waits ? &queries[i].shadow : NULL;
+        const uint32_t dark = trace_occluded_packet(w->trace, rays);
+        for (int i = first; i < count && i < first + TRACE_PACKET; ++i)
+            if (!(dark >> (i - first) & 1U))
+                lit[lit_count++] = &queries[i];
+    }
+    return lit_count;
+}
+
+static const float whole[3] = { 1.0F, 1.0F, 1.0F };
+
+/* Points of at most SHADE_MOST_QUERIES lights together. */
+static void add_some(const world *w, const direct_point *points, int count, uint32_t dimension, direct_scratch *s,
+                     ray_counts *counts)
+{
+    const int found = w->light_count > MOST_LIGHTS ? gather_chosen(w, points, count, dimension, s->queries, counts)
+                                                   : gather_all(w, points, count, dimension, s->queries, counts);
+    const int lit = trace_shadows(w, s->queries, found, s->lit);
+    for (int i = 0; i < lit; ++i)
+        s->shades[i] = &s->lit[i]->shade;
+    shade_eval_many(s->shades, lit);
+    for (int i = 0; i < lit; ++i) {
+        count_evaluation(s->shades[i], counts);
+        add_up(s->lit[i], whole, s->lit[i]->to->light, s->lit[i]->to->facets);
+    }
+}
+
+void add_direct_light_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
+                              direct_scratch *s, ray_counts *counts)
+{
+    const int lights = w->light_count < MOST_LIGHTS ? w->light_count : MOST_LIGHTS;
+    if (lights == 0)
+        return;
+    const int most = SHADE_MOST_QUERIES / lights;
+    for (int k = 0; k < count; k += most)
+        add_some(w, &points[k], count - k < most ? count - k : most, dimension, s, counts);
 }

@@ -29,17 +29,24 @@ static void add(double *sums, const float *values, int count)
         sums[i] += (double)values[i];
 }
 
-void film_add(film_pixel *pixel, const pixel_sample *sample)
+bool film_is_described(const image *film)
 {
+    return film->channel_count > PICTURE_CHANNELS;
+}
+
+void film_add(film_pixel *pixel, const pixel_sample *sample, bool described)
+{
+    ++pixel->samples;
     add(pixel->rgba, sample->light.discrete, 3);
     add(&pixel->rgba[3], &sample->alpha, 1);
+    if (!described)
+        return;
     add(pixel->smooth, sample->light.smooth, 3);
     add(&pixel->facet_count, &sample->facet_count, 1);
     add(&pixel->lit_probability, &sample->lit_probability, 1);
     add(pixel->normal, sample->normal, 3);
     add(pixel->albedo, sample->albedo, 3);
     add(&pixel->depth, &sample->depth, 1);
-    ++pixel->samples;
     if (sample->depth > 0.0F)
         ++pixel->hits;
 }
@@ -56,7 +63,7 @@ void film_write(image *film, int x, int y, const film_pixel *pixel)
     const uint32_t n = pixel->samples;
     float *to = &film->pixels[((size_t)y * (size_t)film->width + (size_t)x) * (size_t)film->channel_count];
     to = put(to, pixel->rgba, 4, n);
-    if (film->channel_count == PICTURE_CHANNELS)
+    if (!film_is_described(film))
         return;
     to = put(to, pixel->smooth, 3, n);
     to = put(to, &pixel->facet_count, 1, n);

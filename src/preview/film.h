@@ -14,7 +14,9 @@ typedef struct film_pixel {
     uint32_t samples, hits;
 } film_pixel; /* the sums are in the order of the channels */
 
-void film_add(film_pixel *pixel, const pixel_sample *sample);
+/* described: all of the sample, not only light and alpha. */
+void film_add(film_pixel *pixel, const pixel_sample *sample, bool described);
+bool film_is_described(const image *film);
 /* x, y: within the image. Different pixels may be written by different threads. */
 void film_write(image *film, int x, int y, const film_pixel *pixel);
 

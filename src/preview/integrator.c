@@ -1,9 +1,8 @@
 /* A camera ray through the layers of blended surfaces; behind each layer one path of indirect light. */
-#include "preview/integrator.h"
+#include "preview/camera_sample.h"
 
 #include <string.h>
 
-#include "preview/direct.h"
 #include "preview/hash.h"
 #include "preview/rig.h"
 #include "preview/sampler.h"
@@ -36,6 +35,8 @@ static uint32_t dimension(int depth, uint32_t purpose)
 {
     return ((uint32_t)depth << 20) + purpose;
 }
+
+static const float all[3] = { 1.0F, 1.0F, 1.0F }; /* of the light that a camera ray meets */
 
 static float to_uniform(double u)
 {
@@ -82,10 +83,10 @@ static bool leave(const world *w, vertex *v, const sampler *random, int depth, s
     const vec3 half = v3_normalize(v3_sub(next->wi, v->ray.direction));
     v->step = differential_reflect(&v->step, v->ray.direction, half, &v->hit_step.position, &v->turn);
     differential_widen(&v->step, next->wi, fmin(1.0 / ((double)next->pdf * w->spp), 2.0 * PREVIEW_PI));
-    v->ray = (trace_ray){ .origin = hit_leave(&v->hit, v->hit.position),
-                          .direction = next->wi,
-                          .far = (double)INFINITY,
-                          .random = sampler_bits(random, dimension(depth, DIM_BLEND)) };
+    v->ray =
+        (trace_ray){ .origin = hit_leave(&v->hit, v->hit.position), .direction = next->wi, .far = (double)INFINITY };
+    if (w->is_blended)
+        v->ray.random = sampler_bits(random, dimension(depth, DIM_BLEND));
     return true;
 }
 
@@ -141,20 +142,6 @@ static void describe_first_hit(const world *w, const vertex *v, const direct_fac
     out->depth = (float)camera_depth(w->camera, v->hit.position);
     out->facet_count = facets->count * (float)(w->glint_side * w->glint_side);
     out->lit_probability = facets->lit_probability;
-}
-
-/* All the light that a surface sends to the camera. */
-static radiance light_of_layer(const world *w, const vertex *v, const sampler *random, direct_facets *facets,
-                               ray_counts *counts)
-{
-    static const float all[3] = { 1.0F, 1.0F, 1.0F };
-    radiance sum = { 0 };
-    add_light(&sum, all, v->point.emission);
-    add_direct_light(w, &v->hit, &v->point, random, dimension(0, DIM_LIGHTS), all, &sum, facets, counts);
-    add_glow(w, &v->hit, &v->point, random, dimension(0, DIM_GLOW), all, &sum, facets, counts);
-    add_surroundings(w, &v->hit, &v->point, random, dimension(0, DIM_SURROUNDINGS), all, &sum, facets, counts);
-    add_indirect_light(w, v, random, &sum, counts);
-    return sum;
 }
 
 static void add_layer(pixel_sample *out, const radiance *from, float share)
@@ -226,50 +213,109 @@ static void tile_footprints(const world *w, const double jitter[2], shade_point 
     }
 }
 
-/* A ray through a point of the pixel. */
-static void leave_camera(const world *w, int x, int y, const sampler *pixel, double jitter[2], vertex *v)
+/* What the ray has found, under the footprint of the sample. */
+void camera_sample_look(const world *w, camera_sample *s)
 {
-    sampler_pair(pixel, dimension(0, DIM_PIXEL), jitter);
-    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v->ray, &v->step);
-    v->step = differential_scale(&v->step, 1.0 / w->footprint_side);
+    look(w, &s->vertex, &s->random, 0);
+    tile_footprints(w, s->jitter, &s->vertex.point);
+    s->facets = (direct_facets){ 0 };
+    for (int c = 0; c < 3; ++c)
+        s->light.discrete[c] = s->light.smooth[c] = s->vertex.point.emission[c];
+}
+
+static void add_lights(const world *w, camera_sample *s, ray_counts *counts)
+{
+    add_direct_light(w, &s->vertex.hit, &s->vertex.point, &s->random, dimension(0, DIM_LIGHTS), all, &s->light,
+                     &s->facets, counts);
+}
+
+/* All other light that the surface sends to the camera. */
+static void add_other_light(const world *w, camera_sample *s, ray_counts *counts)
+{
+    const vertex *const v = &s->vertex;
+    add_glow(w, &v->hit, &v->point, &s->random, dimension(0, DIM_GLOW), all, &s->light, &s->facets, counts);
+    add_surroundings(w, &v->hit, &v->point, &s->random, dimension(0, DIM_SURROUNDINGS), all, &s->light, &s->facets,
+                     counts);
+    add_indirect_light(w, v, &s->random, &s->light, counts);
+}
+
+/* Through the first surface, to those behind it. */
+static void look_behind(const world *w, camera_sample *s, pixel_sample *out, ray_counts *counts)
+{
+    const sampler first = s->random;
+    float transmittance = 1.0F;
+    for (int layer = 1; layer < MOST_LAYERS; ++layer) {
+        transmittance *= 1.0F - s->vertex.point.opacity;
+        if (!(transmittance > LEAST_TRANSMITTANCE))
+            return;
+        /* Behind it, by more than the rounding of single precision. */
+        s->vertex.ray.near = s->vertex.hit.distance * (1.0 + 0x1p-20);
+        s->random = sampler_of_layer(&first, layer);
+        ++counts->camera_rays;
+        if (!trace_closest(w->trace, &s->vertex.ray, TRACE_BLEND_SOLID, &s->vertex.found)) {
+            add_seen_sky(w, s->vertex.ray.direction, transmittance, out);
+            return;
+        }
+        camera_sample_look(w, s);
+        add_lights(w, s, counts);
+        add_other_light(w, s, counts);
+        add_layer(out, &s->light, transmittance * s->vertex.point.opacity);
+    }
+}
+
+/* ---- the steps of a sample ---- */
+
+void camera_sample_leave(const world *w, int x, int y, uint32_t index, camera_sample *s)
+{
+    s->random = sampler_make(x, y, index, w->seed);
+    sampler_pair(&s->random, dimension(0, DIM_PIXEL), s->jitter);
+    camera_ray(w->camera, x + s->jitter[0], y + s->jitter[1], &s->vertex.ray, &s->vertex.step);
+    s->vertex.step = differential_scale(&s->vertex.step, 1.0 / w->footprint_side);
+}
+
+uint32_t camera_sample_lights(void)
+{
+    return dimension(0, DIM_LIGHTS);
+}
+
+void camera_sample_miss(const world *w, const camera_sample *s, pixel_sample *out)
+{
+    *out = (pixel_sample){ 0 };
+    add_seen_sky(w, s->vertex.ray.direction, 1.0F, out);
+}
+
+void camera_sample_end(const world *w, camera_sample *s, bool described, pixel_sample *out, ray_counts *counts)
+{
+    *out = (pixel_sample){ 0 };
+    add_other_light(w, s, counts);
+    if (described)
+        describe_first_hit(w, &s->vertex, &s->facets, out);
+    add_layer(out, &s->light, s->vertex.point.opacity);
+    if (s->vertex.point.opacity < 1.0F)
+        look_behind(w, s, out, counts);
 }
 
 bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
 {
-    double jitter[2];
-    const sampler pixel = sampler_make(x, y, index, w->seed);
-    leave_camera(w, x, y, &pixel, jitter, v);
-    if (!trace_closest(w->trace, &v->ray, TRACE_BLEND_SOLID, &v->found))
+    camera_sample s;
+    camera_sample_leave(w, x, y, index, &s);
+    if (!trace_closest(w->trace, &s.vertex.ray, TRACE_BLEND_SOLID, &s.vertex.found))
         return false;
-    look(w, v, &pixel, 0);
-    tile_footprints(w, jitter, &v->point);
+    camera_sample_look(w, &s);
+    *v = s.vertex;
     return true;
 }
 
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
 {
-    *out = (pixel_sample){ 0 };
-    double jitter[2];
-    const sampler pixel = sampler_make(x, y, index, w->seed);
-    vertex v;
-    leave_camera(w, x, y, &pixel, jitter, &v);
-
-    float transmittance = 1.0F;
-    for (int layer = 0; layer < MOST_LAYERS && transmittance > LEAST_TRANSMITTANCE; ++layer) {
-        const sampler random = sampler_of_layer(&pixel, layer);
-        ++counts->camera_rays;
-        if (!trace_closest(w->trace, &v.ray, TRACE_BLEND_SOLID, &v.found)) {
-            add_seen_sky(w, v.ray.direction, transmittance, out);
-            return;
-        }
-        look(w, &v, &random, 0);
-        tile_footprints(w, jitter, &v.point);
-        direct_facets facets = { 0 };
-        const radiance seen = light_of_layer(w, &v, &random, &facets, counts);
-        if (layer == 0)
-            describe_first_hit(w, &v, &facets, out);
-        add_layer(out, &seen, transmittance * v.point.opacity);
-        transmittance *= 1.0F - v.point.opacity;
-        v.ray.near = v.hit.distance * (1.0 + 0x1p-20); /* behind it, by more than the rounding of single precision */
+    camera_sample s;
+    camera_sample_leave(w, x, y, index, &s);
+    ++counts->camera_rays;
+    if (!trace_closest(w->trace, &s.vertex.ray, TRACE_BLEND_SOLID, &s.vertex.found)) {
+        camera_sample_miss(w, &s, out);
+        return;
     }
+    camera_sample_look(w, &s);
+    add_lights(w, &s, counts);
+    camera_sample_end(w, &s, true, out, counts);
 }

@@ -22,6 +22,7 @@ typedef struct world {
     preview_sky sky;
     const environment *environment; /* in place of the sky; NULL: none */
     bool has_sky, sky_seen;         /* seen: by the camera */
+    bool is_blended;                /* a surface lets rays through at random */
     int bounces, spp;
     /* The samples' footprints tile a pixel, side x side of them: see preview_footprint_side. */
     int footprint_side;

@@ -142,11 +142,17 @@ double light_area_m2(const light *l)
 void light_pick(const light *l, const light_view *view, vec3 position, const double u[2], vec3 *direction,
                 double *distance)
 {
+    const bool is_far = l->kind == SCENE_LIGHT_DIRECTIONAL;
+    if (!light_is_soft(l)) {
+        const vec3 towards = is_far ? l->axis : v3_sub(l->position, position);
+        *distance = is_far ? (double)INFINITY : v3_length(towards);
+        *direction = is_far ? towards : v3_scale(towards, 1.0 / *distance);
+        return;
+    }
     const vec3 tangent = v3_any_tangent(view->wi);
     const vec3 bitangent = v3_cross(view->wi, tangent);
     const double angle = 2.0 * PREVIEW_PI * u[1];
-
-    if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
+    if (is_far) {
         const double cosine = 1.0 - u[0] * (1.0 - l->cosine); /* even over the cap */
         const double sine = sqrt(larger_of(1.0 - cosine * cosine, 0.0));
         const vec3 side = v3_mad(v3_scale(tangent, cos(angle) * sine), bitangent, sin(angle) * sine);

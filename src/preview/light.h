@@ -35,6 +35,12 @@ static inline bool light_is_area(const light *l)
     return l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
 }
 
+/* Whether light_pick has a choice. */
+static inline bool light_is_soft(const light *l)
+{
+    return l->kind == SCENE_LIGHT_DIRECTIONAL ? l->cosine < 1.0 : l->radius > 0.0;
+}
+
 /* Radiance of a light that is round, over what it sends to a surface that faces it. */
 double light_radiance_per_irradiance(const light_view *view);
 

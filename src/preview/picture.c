@@ -89,7 +89,7 @@ bool preview_picture_refine(preview_picture *p, int samples, preview_statistics 
         .world = &p->view.world, .options = &p->options, .samples = samples, .film = &p->film, .sums = &p->sums
     };
     ray_counts counts = { 0 };
-    const bool finished = tiles_render(&job, &counts);
+    const bool finished = tiles_render(&job, &counts, r);
     if (statistics != NULL) {
         *statistics = (preview_statistics){ 0 };
         stage_count(&counts, statistics);

@@ -104,6 +104,14 @@ static bool set_lights(view *v, const stage *st, const preview_options *o, const
     return light_tree_make(v->lights, v->world.light_count, &v->light_tree, r);
 }
 
+static bool is_blended(const scene *s)
+{
+    for (int i = 0; i < s->material_count; ++i)
+        if (s->materials[i].alpha_mode == SCENE_ALPHA_BLEND)
+            return true;
+    return false;
+}
+
 static void set_sky(world *w, const stage *st, const preview_options *o)
 {
     w->has_sky = o->sky != NULL || wants_rig(st, o) || w->environment != NULL;
@@ -157,6 +165,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
                             .camera = &v->camera,
                             .shader = st->shader,
                             .environment = st->has_environment ? &st->environment : NULL,
+                            .is_blended = is_blended(st->scene),
                             .bounces = o->bounces,
                             .spp = o->spp,
                             .footprint_side = preview_footprint_side(o->spp),
@@ -221,7 +230,7 @@ static bool render(const stage *st, const world *w, const preview_options *o, im
     const tiles_job job = { .world = w, .options = o, .samples = o->spp, .film = out };
     ray_counts counts = { 0 };
     const double start = now_s();
-    const bool finished = tiles_render(&job, &counts);
+    const bool finished = tiles_render(&job, &counts, r);
     statistics->render_s = now_s() - start;
     stage_count(&counts, statistics);
     if (finished && stage_check_counts(st, &counts, r))

@@ -1,11 +1,11 @@
 /* How the layers of a prepared point scatter light: evaluation and sampling of their sum, and what a cone sees of them.
  */
-#include "preview/shade.h"
+#include "preview/shade_parts.h"
 
 /* How far above the horizon of a coat the middle of a light is taken to be at least: sin of about a degree. Taste. */
 #define LOWEST 0.02
 
-static void to_local(const shade_layer *layer, vec3 world, float local[3])
+void shade_to_local(const shade_layer *layer, vec3 world, float local[3])
 {
     local[0] = (float)v3_dot(world, layer->x);
     local[1] = (float)v3_dot(world, layer->y);
@@ -27,7 +27,7 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3])
                               .tangent = { 1.0F, 0.0F, 0.0F } };
     float local[3];
     if (wi != NULL)
-        to_local(layer, *wi, local);
+        shade_to_local(layer, *wi, local);
     glint_transmittance(p->whole, &coat, layer->wo, wi != NULL ? local : NULL, rgb);
 }
 
@@ -57,6 +57,7 @@ void shade_widen(shade_point *p, double slope_variance)
          */
         if (slope_variance > WIDE_CONE)
             p->layers[i].counts = false;
+        p->layers[i].is_own = false;
         s->alpha_x = widened(s->alpha_x, slope_variance);
         s->alpha_y = widened(s->alpha_y, slope_variance);
     }
@@ -82,24 +83,30 @@ static void add_facets(const glint_value *layer, glint_value *sum)
     sum->over_limit = sum->over_limit || layer->over_limit;
 }
 
+void shade_add_layer(const shade_point *p, int i, vec3 wi, const glint_value *one, glint_value *sum)
+{
+    float weight[3];
+    weigh(p, i, wi, weight);
+    for (int c = 0; c < 3; ++c) {
+        sum->rgb[c] += weight[c] * one->rgb[c];
+        sum->smooth[c] += weight[c] * one->smooth[c];
+    }
+    if (p->layers[i].counts)
+        add_facets(one, sum);
+}
+
 void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value *value)
 {
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
-        float local[3], weight[3];
+        float local[3];
         glint_value one;
-        to_local(layer, wi, local);
-        glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
-                         &light, &one);
-        weigh(p, i, wi, weight);
-        for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += weight[c] * one.rgb[c];
-            value->smooth[c] += weight[c] * one.smooth[c];
-        }
-        if (layer->counts)
-            add_facets(&one, value);
+        shade_to_local(layer, wi, local);
+        glint_eval_value(layer->material, shade_surface(layer), layer->counts ? &layer->footprint : NULL, layer->wo,
+                         local, &light, &one);
+        shade_add_layer(p, i, wi, &one, value);
     }
 }
 
@@ -131,27 +138,27 @@ bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
 {
     for (int i = 0; i < p->layer_count; ++i) {
         float local[3];
-        to_local(&p->layers[i], wi, local);
+        shade_to_local(&p->layers[i], wi, local);
         if (fabs((double)local[2]) < sine || cap_is_off(&p->layers[i], local, sine))
             return true;
     }
     return false;
 }
 
-static void set_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
+void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
 {
     *to = (glint_area_light){ .kind = from->kind,
                               .hidden = from->hidden,
                               .radius = (float)from->radius,
                               .solid_angle_sr = from->solid_angle_sr };
-    to_local(layer, from->center, to->center);
-    to_local(layer, from->half_x, to->half_x);
-    to_local(layer, from->half_y, to->half_y);
+    shade_to_local(layer, from->center, to->center);
+    shade_to_local(layer, from->half_x, to->half_x);
+    shade_to_local(layer, from->half_y, to->half_y);
 }
 
 /* A direction to the light for what the coat leaves of the base, which changes little over it: to its middle, or the
  * nearest above the coat's horizon. */
-static vec3 towards_area(const shade_point *p, const shade_area *area)
+vec3 shade_towards_area(const shade_point *p, const shade_area *area)
 {
     const vec3 z = p->layers[p->layer_count - 1].z;
     const vec3 middle = v3_normalize(area->center);
@@ -161,23 +168,16 @@ static vec3 towards_area(const shade_point *p, const shade_area *area)
 
 void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value)
 {
-    const vec3 middle = towards_area(p, area);
+    const vec3 middle = shade_towards_area(p, area);
     *value = (glint_value){ 0 };
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
         glint_area_light light;
         glint_value one;
-        float weight[3];
-        set_local(layer, area, &light);
-        glint_eval_area(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, &light,
-                        &one);
-        weigh(p, i, middle, weight);
-        for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += weight[c] * one.rgb[c];
-            value->smooth[c] += weight[c] * one.smooth[c];
-        }
-        if (layer->counts)
-            add_facets(&one, value);
+        shade_area_to_local(layer, area, &light);
+        glint_eval_area(layer->material, shade_surface(layer), layer->counts ? &layer->footprint : NULL, layer->wo,
+                        &light, &one);
+        shade_add_layer(p, i, middle, &one, value);
     }
 }
 
@@ -199,7 +199,7 @@ float shade_level(const shade_point *p, vec3 wi)
     for (int i = 0; i < p->layer_count; ++i) {
         const shade_layer *const layer = &p->layers[i];
         float local[3], rgb[3];
-        to_local(layer, wi, local);
+        shade_to_local(layer, wi, local);
         glint_eval(layer->material, &layer->surface, NULL, layer->wo, local, NULL, rgb);
         sum += layer->weight * (rgb[0] + rgb[1] + rgb[2]) / 3.0F;
     }
@@ -247,7 +247,7 @@ float shade_pdf(const shade_point *p, vec3 wi)
         const shade_layer *const layer = &p->layers[i];
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3];
-        to_local(layer, wi, local);
+        shade_to_local(layer, wi, local);
         sum += share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
     }
     return sum;
@@ -302,7 +302,7 @@ void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, 
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3], weight[3];
         glint_value one;
-        to_local(layer, s->wi, local);
+        shade_to_local(layer, s->wi, local);
         const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
         const float density = s->light_pdf + own;
         if (!(density > 0.0F))
@@ -329,7 +329,7 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
     if (counts) {
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3];
-        to_local(layer, s->wi, local);
+        shade_to_local(layer, s->wi, local);
         eval_patch(layer, &surface, s, local, density, &one);
         add_facets(&one, value);
     }

@@ -184,6 +184,7 @@ void shade_place_glints(const shader *s, const hit *h, const hit_step *step, flo
         if (s->materials->facets != PREVIEW_FACETS_OWN)
             out->layers[i].footprint.seed = 0U;
         out->layers[i].surface.facets_per_m2 *= density_scale;
+        out->layers[i].is_own = out->layers[i].is_own && density_scale == 1.0F;
         if (out->layers[i].mapped)
             align_to_map(&out->layers[i], h, g, choice, wo);
     }

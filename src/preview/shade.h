@@ -12,6 +12,7 @@ typedef struct shade_layer {
     vec3 x, y, z; /* the local frame in world space: tangent, bitangent, shading normal */
     float wo[3];  /* to the viewer, in that frame */
     float weight; /* of the coat: how much of the surface it covers. Of the base: about what the coat leaves of it */
+    bool is_own;  /* the surface is the material's own, as it was made */
     bool counts;  /* wants the footprint */
     bool mapped;  /* shows a normal map: x lies along u and y along v, so that the frame may be left-handed */
     glint_footprint footprint;
@@ -77,6 +78,22 @@ bool shade_faces_area(const shade_point *p, const shade_area *area);
 /* Whether a round light around wi (world, unit) has to be seen as a shape: it stands astride a layer's horizon, or the
  * reflection changes over it. sine: of its angular radius. */
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine);
+/* A light of either kind at a point. */
+typedef struct shade_query {
+    const shade_point *point;
+    vec3 wi; /* a cap: as shade_eval; these two are not read of an area */
+    float solid_angle_sr;
+    bool is_area;
+    shade_area area;
+    glint_value value; /* out */
+} shade_query;
+
+enum { SHADE_MOST_QUERIES = 256 };
+
+/* shade_eval or shade_eval_area for every query, bit for bit: sorted by material, and evaluated in batches. At most
+ * SHADE_MOST_QUERIES. The points are as shade_prepare left them. */
+void shade_eval_many(shade_query *const *queries, int count);
+
 /* Mean over the channels of f |cos theta_i| without single facets, for one of its directions. */
 float shade_level(const shade_point *p, vec3 wi);
 /* Density with which shade_sample draws wi, per steradian. */

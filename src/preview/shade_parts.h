@@ -9,6 +9,24 @@ void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo);
 /* Footprints of the layers that count. */
 void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out);
 
+/* What the library evaluates: NULL is the material's own surface, about which it knows more. */
+static inline const glint_surface *shade_surface(const shade_layer *layer)
+{
+    return layer->is_own ? NULL : &layer->surface;
+}
+
+/* ---- scatter.c ---- */
+
+void shade_to_local(const shade_layer *layer, vec3 world, float local[3]);
+void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to);
+/* A direction to the light for what the coat leaves of the base, which changes little over it: to its middle, or the
+ * nearest above the coat's horizon. */
+vec3 shade_towards_area(const shade_point *p, const shade_area *area);
+/* Adds to *sum what is seen of *one: of the light from wi that layer i scatters. */
+void shade_add_layer(const shade_point *p, int i, vec3 wi, const glint_value *one, glint_value *sum);
+
+/* ---- ways to make a hit ready ---- */
+
 /* shade.c: all that glTF can ask of a surface. */
 shade_preparer shade_prepare_any;
 /* shade_plain.c: a surface that is the same everywhere. */

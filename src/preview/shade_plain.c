@@ -118,6 +118,7 @@ void shade_prepare_plain(const shader *s, const hit *h, const hit_step *step, ve
     base->material = handles->base;
     base->counts = handles->base_counts;
     base->mapped = handles->base_mapped;
+    base->is_own = !handles->base_mapped;
     base->surface = c->surface;
     base->weight = 1.0F;
     shade_set_frame(base, h->normal, h->tangent, wo);

@@ -31,7 +31,7 @@ static void add_value(radiance *sum, const float throughput[3], const float inco
 static void note_facets(direct_facets *facets, const glint_value *value)
 {
     if (facets != NULL && facets->count == 0.0F)
-        *facets = (direct_facets){ value->facet_count, value->lit_probability };
+        *facets = (direct_facets){ value->facet_count, value->lit_probability, 0.0F };
 }
 
 void add_surroundings(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,

@@ -3,16 +3,21 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-#define TILE_SIZE 16
+#include "preview/block.h"
+
+#define TILE_SIZE (2 * BLOCK_SIDE)
 #define MOST_THREADS 256
 #define PROGRESS_INTERVAL_S 0.1
 
 typedef struct queue {
     const tiles_job *job;
-    int columns, tile_count;
+    block_window window; /* which part of the picture the film is; tiles and blocks are those of the whole */
+    int first_column, first_row, columns, tile_count;
     atomic_int next, done;
     double started_s;
 } queue;
@@ -22,6 +27,8 @@ typedef struct worker {
     _Alignas(64) queue *queue;
     ray_counts counts;
     pthread_t thread;
+    block block;
+    film_pixel pixels[BLOCK_PIXELS];
 } worker;
 
 static double now_s(void)
@@ -36,35 +43,42 @@ static bool cancelled(const tiles_job *job)
     return job->options->cancel != NULL && atomic_load(job->options->cancel);
 }
 
-static void render_pixel(const tiles_job *job, int x, int y, ray_counts *counts)
-{
-    const bool whole = job->options->tile_width == 0;
-    const int left = whole ? 0 : job->options->tile_x;
-    const int top = whole ? 0 : job->options->tile_y;
-    film_pixel pixel = { 0 };
-    if (job->sums != NULL)
-        film_sums_load(job->sums, x, y, &pixel);
-    while (pixel.samples < (uint32_t)job->samples) {
-        pixel_sample sample;
-        integrate(job->world, left + x, top + y, pixel.samples, &sample, counts);
-        film_add(&pixel, &sample);
-    }
-    film_write(job->film, x, y, &pixel);
-    if (job->sums != NULL)
-        film_sums_store(job->sums, x, y, &pixel);
-}
-
-static void render_tile(const queue *q, int index, ray_counts *counts)
+/* All pixels of a block have as many samples: a picture that grows has the same blocks every time. */
+static void render_block(const queue *q, int x, int y, worker *own)
 {
     const tiles_job *const job = q->job;
-    const int left = index % q->columns * TILE_SIZE;
-    const int top = index / q->columns * TILE_SIZE;
-    const int right = left + TILE_SIZE < job->film->width ? left + TILE_SIZE : job->film->width;
-    const int bottom = top + TILE_SIZE < job->film->height ? top + TILE_SIZE : job->film->height;
-    for (int y = top; y < bottom; ++y) {
-        for (int x = left; x < right && !cancelled(job); ++x)
-            render_pixel(job, x, y, counts);
+    const bool described = film_is_described(job->film);
+    block *const b = &own->block;
+    uint32_t index = 0;
+    block_begin(b, x, y, &q->window);
+    memset(own->pixels, 0, sizeof own->pixels);
+    for (int i = 0; job->sums != NULL && i < BLOCK_PIXELS; ++i)
+        if (b->is_seen[i]) {
+            film_sums_load(job->sums, b->x[i] - q->window.left, b->y[i] - q->window.top, &own->pixels[i]);
+            index = own->pixels[i].samples;
+        }
+    for (; index < (uint32_t)job->samples && !cancelled(job); ++index) {
+        block_integrate(job->world, b, index, described, &own->counts);
+        for (int i = 0; i < BLOCK_PIXELS; ++i)
+            if (b->is_seen[i])
+                film_add(&own->pixels[i], &b->seen[i], described);
     }
+    for (int i = 0; i < BLOCK_PIXELS; ++i)
+        if (b->is_seen[i]) {
+            film_write(job->film, b->x[i] - q->window.left, b->y[i] - q->window.top, &own->pixels[i]);
+            if (job->sums != NULL)
+                film_sums_store(job->sums, b->x[i] - q->window.left, b->y[i] - q->window.top, &own->pixels[i]);
+        }
+}
+
+static void render_tile(const queue *q, int index, worker *own)
+{
+    const int left = (q->first_column + index % q->columns) * TILE_SIZE;
+    const int top = (q->first_row + index / q->columns) * TILE_SIZE;
+    for (int y = top; y < top + TILE_SIZE && y < q->window.bottom; y += BLOCK_SIDE)
+        for (int x = left; x < left + TILE_SIZE && x < q->window.right && !cancelled(q->job); x += BLOCK_SIDE)
+            if (x + BLOCK_SIDE > q->window.left && y + BLOCK_SIDE > q->window.top)
+                render_block(q, x, y, own);
 }
 
 static void report_progress(const queue *q, double *reported_s)
@@ -82,14 +96,14 @@ static void report_progress(const queue *q, double *reported_s)
 }
 
 /* Takes tiles until there are none. The calling thread alone reports progress. */
-static void work(queue *q, ray_counts *counts, bool reports)
+static void work(queue *q, worker *own, bool reports)
 {
     double reported_s = q->started_s;
     for (;;) {
         const int index = atomic_fetch_add(&q->next, 1);
         if (index >= q->tile_count || cancelled(q->job))
             return;
-        render_tile(q, index, counts);
+        render_tile(q, index, own);
         atomic_fetch_add(&q->done, 1);
         if (reports)
             report_progress(q, &reported_s);
@@ -99,7 +113,7 @@ static void work(queue *q, ray_counts *counts, bool reports)
 static void *run(void *argument)
 {
     worker *const w = argument;
-    work(w->queue, &w->counts, false);
+    work(w->queue, w, false);
     return NULL;
 }
 
@@ -122,29 +136,45 @@ static int thread_count(const tiles_job *job, int tile_count)
     return count > 1 ? (int)count : 1;
 }
 
-bool tiles_render(const tiles_job *job, ray_counts *counts)
+static queue queue_of(const tiles_job *job)
 {
-    const int columns = (job->film->width + TILE_SIZE - 1) / TILE_SIZE;
-    const int rows = (job->film->height + TILE_SIZE - 1) / TILE_SIZE;
-    queue q = { .job = job, .columns = columns, .tile_count = columns * rows, .started_s = now_s() };
+    const preview_options *const o = job->options;
+    const int left = o->tile_width == 0 ? 0 : o->tile_x, top = o->tile_width == 0 ? 0 : o->tile_y;
+    queue q = { .job = job,
+                .window = { left, top, left + job->film->width, top + job->film->height },
+                .first_column = left / TILE_SIZE,
+                .first_row = top / TILE_SIZE,
+                .started_s = now_s() };
+    q.columns = (q.window.right - 1) / TILE_SIZE - q.first_column + 1;
+    q.tile_count = q.columns * ((q.window.bottom - 1) / TILE_SIZE - q.first_row + 1);
     atomic_init(&q.next, 0);
     atomic_init(&q.done, 0);
+    return q;
+}
+
+/* All that the threads work on is here before the first tile. The calling thread is the first of them. */
+bool tiles_render(const tiles_job *job, ray_counts *counts, report *r)
+{
+    queue q = queue_of(job);
+    const int wanted = thread_count(job, q.tile_count);
+    worker *const workers = aligned_alloc(_Alignof(worker), (size_t)wanted * sizeof *workers);
+    if (workers == NULL)
+        return report_error(r, "no memory for %d threads", wanted);
 
     /* A thread that the system refuses leaves its share to the others. */
-    worker others[MOST_THREADS - 1] = { 0 };
-    const int wanted = thread_count(job, q.tile_count) - 1;
-    int started = 0;
-    while (started < wanted) {
-        others[started].queue = &q;
-        if (pthread_create(&others[started].thread, NULL, run, &others[started]) != 0)
-            break;
+    int started = 1;
+    for (int i = 0; i < wanted; ++i) {
+        workers[i].queue = &q;
+        workers[i].counts = (ray_counts){ 0 };
+    }
+    while (started < wanted && pthread_create(&workers[started].thread, NULL, run, &workers[started]) == 0)
         ++started;
-    }
-    work(&q, counts, true);
-    for (int i = 0; i < started; ++i) {
-        pthread_join(others[i].thread, NULL);
-        add_counts(counts, &others[i].counts);
-    }
+    work(&q, &workers[0], true);
+    for (int i = 1; i < started; ++i)
+        pthread_join(workers[i].thread, NULL);
+    for (int i = 0; i < started; ++i)
+        add_counts(counts, &workers[i].counts);
+    free(workers);
     double reported_s = 0.0;
     if (!cancelled(job))
         report_progress(&q, &reported_s);

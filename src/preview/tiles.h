@@ -3,6 +3,7 @@
 #define PREVIEW_TILES_H
 
 #include "preview/film.h"
+#include "scene/report.h"
 
 typedef struct tiles_job {
     const world *world;
@@ -12,8 +13,8 @@ typedef struct tiles_job {
     const film_sums *sums; /* what pixels have so far, and where it is kept; NULL: they start from nothing */
 } tiles_job;
 
-/* Renders the whole film. False: cancelled, then the film is unfinished: its pixels have different numbers of samples.
- */
-bool tiles_render(const tiles_job *job, ray_counts *counts);
+/* Renders the whole film. False without an error: cancelled, then the film is unfinished: its pixels have different
+ * numbers of samples. */
+bool tiles_render(const tiles_job *job, ray_counts *counts, report *r);
 
 #endif

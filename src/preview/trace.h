@@ -38,4 +38,11 @@ bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending bl
 /* Whether anything lies between near and far. A single-sided surface throws its shadow from both sides. */
 bool trace_occluded(const trace_scene *t, const trace_ray *ray);
 
+/* The same two for rays that run side by side; bit i of the result is what they say of ray i. NULL: there is no such
+ * ray. Of surfaces that coincide, another ray of the packet may decide which is hit; nothing else depends on them. */
+enum { TRACE_PACKET = 16 };
+uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET], trace_blending blending,
+                              trace_hit hits[TRACE_PACKET]);
+uint32_t trace_occluded_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET]);
+
 #endif

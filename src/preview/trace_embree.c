@@ -30,49 +30,65 @@ struct trace_scene {
 typedef struct query {
     struct RTCIntersectContext context; /* first: the filters cast */
     const trace_scene *scene;
-    const trace_ray *ray;
+    const trace_ray *const *rays; /* by Embree's id of a ray */
     trace_blending blending;
     bool shadow;
 } query;
 
 /* Whether a blended surface stops this ray. The draw belongs to the triangle and the ray, not to the order in which
  * Embree offers its hits. */
-static bool stops(const query *q, const mesh_geometry *mesh, const trace_hit *at)
+static bool stops(const query *q, const mesh_geometry *mesh, const trace_ray *ray, const trace_hit *at)
 {
     const float opacity = q->scene->opacity(q->scene->user, at);
     if (mesh->alpha_mode == SCENE_ALPHA_MASK)
         return opacity >= mesh->alpha_cutoff;
     if (q->blending == TRACE_BLEND_SOLID)
         return opacity > 0.0F;
-    return hash_uniform(hash_combine(hash_combine(q->ray->random, (uint32_t)at->instance), at->triangle)) < opacity;
+    return hash_uniform(hash_combine(hash_combine(ray->random, (uint32_t)at->instance), at->triangle)) < opacity;
 }
 
-static bool accepts(const query *q, const mesh_geometry *mesh, const struct RTCRay *ray, const struct RTCHit *hit)
+/* A packet of N rays or hits is an array of N for each member in turn. Embree has names for them in C++ only. */
+enum { RAY_DIRECTION = 4, RAY_FAR = 8, RAY_ID = 10, HIT_NORMAL = 0, HIT_U = 3, HIT_V, HIT_TRIANGLE };
+
+static float member(const void *packet, unsigned n, unsigned which, unsigned i)
 {
+    return ((const float *)packet)[which * n + i];
+}
+
+static uint32_t member_bits(const void *packet, unsigned n, unsigned which, unsigned i)
+{
+    return ((const uint32_t *)packet)[which * n + i];
+}
+
+/* Whether ray i of n is stopped by what it meets. */
+static bool accepts(const query *q, const mesh_geometry *mesh, const struct RTCFilterFunctionNArguments *a, unsigned i)
+{
+    const unsigned n = a->N;
     /* Both vectors are in the object's space, where counter-clockwise is the front whatever the node's transform. */
-    const float facing = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+    float facing = 0.0F;
+    for (unsigned k = 0; k < 3; ++k)
+        facing += member(a->hit, n, HIT_NORMAL + k, i) * member(a->ray, n, RAY_DIRECTION + k, i);
     if (!mesh->double_sided && !q->shadow && facing > 0.0F)
         return false;
     if (mesh->alpha_mode == SCENE_ALPHA_OPAQUE)
         return true;
 
+    const trace_ray *const exact = q->rays[member_bits(a->ray, n, RAY_ID, i)];
     trace_hit at = { .instance = (int)q->context.instID[0],
-                     .triangle = hit->primID,
-                     .distance = (double)ray->tfar,
-                     .weights = { (double)hit->u, (double)hit->v } };
-    geometry_meet(q->scene->geometry, at.instance, at.triangle, q->ray->origin, q->ray->direction, at.weights,
+                     .triangle = member_bits(a->hit, n, HIT_TRIANGLE, i),
+                     .distance = (double)member(a->ray, n, RAY_FAR, i),
+                     .weights = { (double)member(a->hit, n, HIT_U, i), (double)member(a->hit, n, HIT_V, i) } };
+    geometry_meet(q->scene->geometry, at.instance, at.triangle, exact->origin, exact->direction, at.weights,
                   &at.distance);
-    return stops(q, mesh, &at);
+    return stops(q, mesh, exact, &at);
 }
 
-/* We trace one ray at a time, and for N = 1 the arrays of RTCRayN and RTCHitN are RTCRay and RTCHit. */
 static void filter(const struct RTCFilterFunctionNArguments *arguments)
 {
     const query *const q = (const query *)(const void *)arguments->context;
-    const struct RTCRay *const ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *const hit = (const struct RTCHit *)(const void *)arguments->hit;
-    if (arguments->valid[0] == -1 && !accepts(q, arguments->geometryUserPtr, ray, hit))
-        arguments->valid[0] = 0;
+    for (unsigned i = 0; i < arguments->N; ++i)
+        if (arguments->valid[i] == -1 && !accepts(q, arguments->geometryUserPtr, arguments, i))
+            arguments->valid[i] = 0;
 }
 
 /* ---- building ---- */
@@ -205,35 +221,112 @@ static struct RTCRay embree_ray(const trace_ray *ray)
                             .mask = UINT32_MAX };
 }
 
-static query make_query(const trace_scene *t, const trace_ray *ray, trace_blending blending, bool shadow)
+static query make_query(const trace_scene *t, const trace_ray *const *rays, trace_blending blending, bool shadow)
 {
-    query q = { .scene = t, .ray = ray, .blending = blending, .shadow = shadow };
+    query q = { .scene = t, .rays = rays, .blending = blending, .shadow = shadow };
     rtcInitIntersectContext(&q.context);
     return q;
 }
 
+/* What Embree found, made exact. */
+static trace_hit exact_hit(const trace_scene *t, const trace_ray *ray, const trace_hit *found)
+{
+    trace_hit hit = *found;
+    geometry_meet(t->geometry, hit.instance, hit.triangle, ray->origin, ray->direction, hit.weights, &hit.distance);
+    return hit;
+}
+
 bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending blending, trace_hit *hit)
 {
-    query q = make_query(t, ray, blending, false);
+    query q = make_query(t, &ray, blending, false);
     struct RTCRayHit found = { .ray = embree_ray(ray) };
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(t->top, &q.context, &found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-
-    *hit = (trace_hit){ .instance = (int)found.hit.instID[0],
-                        .triangle = found.hit.primID,
-                        .distance = (double)found.ray.tfar,
-                        .weights = { (double)found.hit.u, (double)found.hit.v } };
-    geometry_meet(t->geometry, hit->instance, hit->triangle, ray->origin, ray->direction, hit->weights, &hit->distance);
+    const trace_hit rough = { .instance = (int)found.hit.instID[0],
+                              .triangle = found.hit.primID,
+                              .distance = (double)found.ray.tfar,
+                              .weights = { (double)found.hit.u, (double)found.hit.v } };
+    *hit = exact_hit(t, ray, &rough);
     return true;
 }
 
 bool trace_occluded(const trace_scene *t, const trace_ray *ray)
 {
-    query q = make_query(t, ray, TRACE_BLEND_RANDOM, true);
+    query q = make_query(t, &ray, TRACE_BLEND_RANDOM, true);
     struct RTCRay shadow = embree_ray(ray);
     rtcOccluded1(t->top, &q.context, &shadow);
     return shadow.tfar < 0.0F;
+}
+
+/* ---- packets ---- */
+
+/* valid: -1 where there is a ray. False: there is none, and Embree would never come back from it. */
+static bool set_packet(const trace_ray *const rays[TRACE_PACKET], struct RTCRay16 *to, int valid[TRACE_PACKET])
+{
+    bool is_any = false;
+    for (unsigned i = 0; i < TRACE_PACKET; ++i) {
+        valid[i] = rays[i] != NULL ? -1 : 0;
+        if (rays[i] == NULL)
+            continue;
+        is_any = true;
+        const struct RTCRay ray = embree_ray(rays[i]);
+        to->org_x[i] = ray.org_x;
+        to->org_y[i] = ray.org_y;
+        to->org_z[i] = ray.org_z;
+        to->tnear[i] = ray.tnear;
+        to->dir_x[i] = ray.dir_x;
+        to->dir_y[i] = ray.dir_y;
+        to->dir_z[i] = ray.dir_z;
+        to->time[i] = ray.time;
+        to->tfar[i] = ray.tfar;
+        to->mask[i] = ray.mask;
+        to->id[i] = i;
+        to->flags[i] = 0;
+    }
+    return is_any;
+}
+
+uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET], trace_blending blending,
+                              trace_hit hits[TRACE_PACKET])
+{
+    _Alignas(64) int valid[TRACE_PACKET];
+    struct RTCRayHit16 found;
+    query q = make_query(t, rays, blending, false);
+    if (!set_packet(rays, &found.ray, valid))
+        return 0;
+    for (int i = 0; i < TRACE_PACKET; ++i)
+        found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect16(valid, t->top, &q.context, &found);
+
+    uint32_t hit = 0;
+    for (int i = 0; i < TRACE_PACKET; ++i) {
+        if (rays[i] == NULL || found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        const trace_hit rough = { .instance = (int)found.hit.instID[0][i],
+                                  .triangle = found.hit.primID[i],
+                                  .distance = (double)found.ray.tfar[i],
+                                  .weights = { (double)found.hit.u[i], (double)found.hit.v[i] } };
+        hits[i] = exact_hit(t, rays[i], &rough);
+        hit |= 1U << i;
+    }
+    return hit;
+}
+
+uint32_t trace_occluded_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET])
+{
+    _Alignas(64) int valid[TRACE_PACKET];
+    struct RTCRay16 shadows;
+    query q = make_query(t, rays, TRACE_BLEND_RANDOM, true);
+    if (!set_packet(rays, &shadows, valid))
+        return 0;
+    rtcOccluded16(valid, t->top, &q.context, &shadows);
+
+    uint32_t occluded = 0;
+    for (int i = 0; i < TRACE_PACKET; ++i)
+        if (rays[i] != NULL && shadows.tfar[i] < 0.0F)
+            occluded |= 1U << i;
+    return occluded;
 }

@@ -103,7 +103,7 @@ static double slope(const double *x, const double *y, int count)
 
 static void study(const growth_case *c, bool is_first, FILE *json, FILE *csv)
 {
-    double seconds[GROWTH_MOST_SIZES], mib[GROWTH_MOST_SIZES], least = (double)INFINITY, most = 0.0;
+    double seconds[GROWTH_MOST_SIZES] = { 0 }, mib[GROWTH_MOST_SIZES] = { 0 }, least = (double)INFINITY, most = 0.0;
     growth_load load = { 0 };
     int count = 0;
     for (; count < GROWTH_MOST_SIZES && c->sizes[count] > 0.0; ++count) {
@@ -155,8 +155,7 @@ int main(int argc, char **argv)
     char path[4096] = "";
     const size_t length = argc > 1 ? strlen(argv[1]) : 0;
     if (length > 5 && length < sizeof path && strcmp(argv[1] + length - 5, ".json") == 0) {
-        memcpy(path, argv[1], length - 5);
-        strcat(path, ".csv");
+        snprintf(path, sizeof path, "%.*s.csv", (int)(length - 5), argv[1]);
     }
     FILE *const json = path[0] != '\0' ? fopen(argv[1], "w") : NULL, *const csv =
                                                                          json != NULL ? fopen(path, "w") : NULL;

@@ -65,11 +65,13 @@ static void batch_gives_the_bits_of_single_calls(void **state)
 {
     (void)state;
     static batch_arrays a;
+    static glint_value values[BATCH];
     uint64_t random = 6;
     FOR_EACH_CONFIGURATION(c, m, row)
     for (int with_surfaces = 0; with_surfaces < 2; with_surfaces++) {
         fill(&a, m, &random);
-        const glint_batch b = batch_of(&a, with_surfaces);
+        glint_batch b = batch_of(&a, with_surfaces);
+        b.values = values;
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
         for (int i = 0; i < BATCH; i++) {
             const glint_footprint f = { a.u[i],           a.v[i],           a.jacobian[0][i], a.jacobian[1][i],
@@ -81,6 +83,9 @@ static void batch_gives_the_bits_of_single_calls(void **state)
             glint_eval(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, rgb);
             for (int k = 0; k < 3; k++)
                 assert_memory_equal(&rgb[k], &a.rgb[k][i], sizeof(float));
+            glint_value value;
+            glint_eval_value(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, &value);
+            assert_memory_equal(&value, &values[i], sizeof(value));
         }
     }
     contract_kept(12, "A batch gives the bits of single calls", "batches", NULL);

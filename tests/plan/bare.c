@@ -1,35 +1,30 @@
-/* A renderer of nothing but plain surfaces under round lights, written without looking for anything else: what such a
- * scene has to cost. */
+/* A renderer of nothing but plain surfaces of one material under round lights, written without looking for
+ * anything else: what such a scene has to cost. Its rays run in packets, and the library gets batches, as in the
+ * previewer. */
 #include "bare.h"
 
 #include "preview/film.h"
-#include "preview/hash.h"
 #include "preview/place.h"
 #include "preview/sampler.h"
 #include "preview/shade_parts.h"
-#include "scene/surface.h"
 
 /* As in src/preview/integrator.c: the same samples make the same pixels. */
-enum { DIM_PIXEL = 0, DIM_LIGHTS = 5, DIM_DRAW = (1 << 20) - 3 };
+enum { DIM_PIXEL = 0, DIM_LIGHTS = 5 };
 
-static void look(const world *w, const sampler *random, vertex *v)
+static void look(const world *w, vertex *v)
 {
     float density_scale;
     const scene *const s = w->shader.scene;
     hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
     v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     const int material = v->hit.mesh->material;
-    const scene_texels t = scene_texels_of(&s->materials[material]);
     shade_layer *const layer = &v->point.layers[0];
     v->point.layer_count = 1;
     layer->material = w->shader.materials->layers[material].base;
     layer->counts = w->shader.materials->layers[material].base_counts;
-    layer->surface = scene_base_surface(&s->materials[material], &t);
     shade_set_frame(layer, v->hit.normal, v->hit.tangent, v3_scale(v->ray.direction, -1.0));
     if (layer->counts) {
         layer->footprint = place_footprint(&s->materials[material].glint, &v->hit, &v->hit_step, 0.0F, &density_scale);
-        layer->surface.facets_per_m2 *= density_scale;
-        layer->footprint.draw = hash_combine(sampler_bits(random, DIM_DRAW), 0U);
     }
 }
 
@@ -49,67 +44,168 @@ static void tile(const world *w, const double jitter[2], glint_footprint *f)
     f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
 }
 
-static bool is_lit(const world *w, const vertex *v, const light *l, const light_view *view, const sampler *random,
-                   uint32_t dimension)
+/* Towards a place of the light. False: the point does not face it. */
+static bool aim(const vertex *v, const light *l, const light_view *view, const sampler *random, uint32_t dimension,
+                trace_ray *ray)
 {
     double u[2];
-    trace_ray ray = { .origin = hit_leave(&v->hit, v->hit.shadow_origin), .random = sampler_bits(random, dimension) };
     if (!(v->point.layers[0].wo[2] > 0.0F && v3_dot(view->wi, v->point.layers[0].z) > 0.0))
         return false;
-    if (l->unshadowed)
-        return true;
+    *ray = (trace_ray){ .origin = hit_leave(&v->hit, v->hit.shadow_origin) };
     sampler_pair(random, dimension, u);
-    light_pick(l, view, ray.origin, u, &ray.direction, &ray.far);
-    return !trace_occluded(w->trace, &ray);
+    light_pick(l, view, ray->origin, u, &ray->direction, &ray->far);
+    return true;
 }
 
-static void add_lights(const world *w, const vertex *v, const sampler *random, radiance *sum)
+/* ---- a block of pixels ---- */
+
+enum { SIDE = 8, PACKET = 4, COUNT = SIDE * SIDE };
+
+typedef struct bare_block {
+    int x[COUNT], y[COUNT];
+    sampler random[COUNT];
+    double jitter[COUNT][2];
+    vertex v[COUNT];
+    int hit[COUNT], hits; /* which of them are */
+    pixel_sample out[COUNT];
+} bare_block;
+
+/* What the points of one light ask the library, of the one material that there is. */
+typedef struct bare_batch {
+    const vertex *v[COUNT];
+    pixel_sample *out[COUNT];
+    float irradiance[COUNT][3];
+    double at[2][COUNT];
+    float step[4][COUNT], wo[3][COUNT], wi[3][COUNT], solid_angle_sr[COUNT], rgb[3][COUNT];
+    uint32_t seed[COUNT];
+    size_t count;
+} bare_batch;
+
+static void add_point(bare_batch *b, const vertex *v, const light_view *view, pixel_sample *out)
 {
     const shade_layer *const layer = &v->point.layers[0];
-    for (int i = 0; i < w->light_count; ++i) {
-        light_view view;
-        glint_value value;
-        if (!light_see(&w->lights[i], v->hit.position, &view) ||
-            !is_lit(w, v, &w->lights[i], &view, random, DIM_LIGHTS + (uint32_t)i))
-            continue;
-        const float wi[3] = { (float)v3_dot(view.wi, layer->x), (float)v3_dot(view.wi, layer->y),
-                              (float)v3_dot(view.wi, layer->z) };
-        const glint_light cap = { GLINT_LIGHT_CAP, view.solid_angle_sr };
-        glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, wi,
-                         &cap, &value);
+    const size_t i = b->count++;
+    const vec3 axes[3] = { layer->x, layer->y, layer->z };
+    for (int c = 0; c < 3; ++c) {
+        b->wo[c][i] = layer->wo[c];
+        b->wi[c][i] = (float)v3_dot(view->wi, axes[c]);
+        b->irradiance[i][c] = view->irradiance[c];
+    }
+    b->at[0][i] = layer->footprint.u;
+    b->at[1][i] = layer->footprint.v;
+    b->step[0][i] = layer->footprint.dudx;
+    b->step[1][i] = layer->footprint.dudy;
+    b->step[2][i] = layer->footprint.dvdx;
+    b->step[3][i] = layer->footprint.dvdy;
+    b->seed[i] = layer->footprint.seed;
+    b->solid_angle_sr[i] = view->solid_angle_sr;
+    b->v[i] = v;
+    b->out[i] = out;
+}
+
+static void add_batch(bare_batch *b)
+{
+    if (b->count == 0)
+        return;
+    const glint_batch batch = { .size = sizeof batch,
+                                .count = b->count,
+                                .u = b->at[0],
+                                .v = b->at[1],
+                                .dudx = b->step[0],
+                                .dudy = b->step[1],
+                                .dvdx = b->step[2],
+                                .dvdy = b->step[3],
+                                .seed = b->seed,
+                                .wo = { b->wo[0], b->wo[1], b->wo[2] },
+                                .wi = { b->wi[0], b->wi[1], b->wi[2] },
+                                .solid_angle_sr = b->solid_angle_sr,
+                                .rgb = { b->rgb[0], b->rgb[1], b->rgb[2] } };
+    glint_eval_batch(b->v[0]->point.layers[0].material, &batch);
+    for (size_t i = 0; i < b->count; ++i)
         for (int c = 0; c < 3; ++c)
-            sum->discrete[c] += view.irradiance[c] * value.rgb[c];
+            b->out[i]->light.discrete[c] += b->irradiance[i][c] * b->rgb[c][i];
+}
+
+static void add_light(const world *w, int index, bare_block *b)
+{
+    const light *const l = &w->lights[index];
+    bare_batch batch;
+    batch.count = 0;
+    for (int first = 0; first < b->hits; first += TRACE_PACKET) {
+        trace_ray shadow[TRACE_PACKET];
+        light_view view[TRACE_PACKET];
+        const trace_ray *rays[TRACE_PACKET] = { NULL };
+        uint32_t lit = 0;
+        for (int i = 0; i < TRACE_PACKET && first + i < b->hits; ++i) {
+            const int at = b->hit[first + i];
+            const vertex *const v = &b->v[at];
+            if (!light_see(l, v->hit.position, &view[i]) ||
+                !aim(v, l, &view[i], &b->random[at], DIM_LIGHTS + (uint32_t)index, &shadow[i]))
+                continue;
+            lit |= 1U << i;
+            rays[i] = l->unshadowed ? NULL : &shadow[i];
+        }
+        lit &= ~trace_occluded_packet(w->trace, rays);
+        for (int i = 0; i < TRACE_PACKET; ++i)
+            if (lit >> i & 1U)
+                add_point(&batch, &b->v[b->hit[first + i]], &view[i], &b->out[b->hit[first + i]]);
+    }
+    add_batch(&batch);
+}
+
+static void look_at_packet(const world *w, int first, uint32_t index, bare_block *b)
+{
+    const trace_ray *rays[TRACE_PACKET];
+    trace_hit found[TRACE_PACKET];
+    for (int i = 0; i < TRACE_PACKET; ++i) {
+        const int at = first + i;
+        vertex *const v = &b->v[at];
+        b->random[at] = sampler_make(b->x[at], b->y[at], index, w->seed);
+        sampler_pair(&b->random[at], DIM_PIXEL, b->jitter[at]);
+        camera_ray(w->camera, b->x[at] + b->jitter[at][0], b->y[at] + b->jitter[at][1], &v->ray, &v->step);
+        v->step = differential_scale(&v->step, 1.0 / w->footprint_side);
+        rays[i] = &v->ray;
+    }
+    const uint32_t met = trace_closest_packet(w->trace, rays, TRACE_BLEND_SOLID, found);
+    for (int i = 0; i < TRACE_PACKET; ++i) {
+        const int at = first + i;
+        vertex *const v = &b->v[at];
+        b->out[at] = (pixel_sample){ .alpha = (float)(met >> i & 1U) };
+        if (!(met >> i & 1U))
+            continue;
+        b->hit[b->hits++] = at;
+        v->found = found[i];
+        look(w, v);
+        if (v->point.layers[0].counts)
+            tile(w, b->jitter[at], &v->point.layers[0].footprint);
     }
 }
 
-static void sample_pixel(const world *w, int x, int y, uint32_t index, pixel_sample *out)
+static void render_block(const world *w, int x, int y, bare_block *b, image *film)
 {
-    double jitter[2];
-    vertex v;
-    const sampler random = sampler_make(x, y, index, w->seed);
-    *out = (pixel_sample){ 0 };
-    sampler_pair(&random, DIM_PIXEL, jitter);
-    camera_ray(w->camera, x + jitter[0], y + jitter[1], &v.ray, &v.step);
-    v.step = differential_scale(&v.step, 1.0 / w->footprint_side);
-    if (!trace_closest(w->trace, &v.ray, TRACE_BLEND_SOLID, &v.found))
-        return;
-    look(w, &random, &v);
-    if (v.point.layers[0].counts)
-        tile(w, jitter, &v.point.layers[0].footprint);
-    add_lights(w, &v, &random, &out->light);
-    out->alpha = 1.0F;
+    film_pixel pixels[COUNT] = { 0 };
+    for (int i = 0; i < COUNT; ++i) {
+        const int packet = i / TRACE_PACKET, entry = i % TRACE_PACKET;
+        b->x[i] = x + packet % (SIDE / PACKET) * PACKET + entry % PACKET;
+        b->y[i] = y + packet / (SIDE / PACKET) * PACKET + entry / PACKET;
+    }
+    for (int index = 0; index < w->spp; ++index) {
+        b->hits = 0;
+        for (int first = 0; first < COUNT; first += TRACE_PACKET)
+            look_at_packet(w, first, (uint32_t)index, b);
+        for (int i = 0; i < w->light_count; ++i)
+            add_light(w, i, b);
+        for (int i = 0; i < COUNT; ++i)
+            film_add(&pixels[i], &b->out[i], false);
+    }
+    for (int i = 0; i < COUNT; ++i)
+        film_write(film, b->x[i], b->y[i], &pixels[i]);
 }
 
 void bare_render(const world *w, image *film)
 {
-    for (int y = 0; y < film->height; ++y)
-        for (int x = 0; x < film->width; ++x) {
-            film_pixel pixel = { 0 };
-            for (int i = 0; i < w->spp; ++i) {
-                pixel_sample sample;
-                sample_pixel(w, x, y, (uint32_t)i, &sample);
-                film_add(&pixel, &sample);
-            }
-            film_write(film, x, y, &pixel);
-        }
+    static bare_block b;
+    for (int y = 0; y < film->height; y += SIDE)
+        for (int x = 0; x < film->width; x += SIDE)
+            render_block(w, x, y, &b, film);
 }

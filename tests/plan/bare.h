@@ -5,7 +5,7 @@
 #include "preview/integrator.h"
 
 /* The pixels of tiles_render, bit for bit, where the world has only such surfaces and lights, no sky and no bounces.
- * film: R G B A. */
+ * film: R G B A, sides multiples of 8. */
 void bare_render(const world *w, image *film);
 
 #endif

@@ -71,7 +71,7 @@ static int render_apart(const scene *s, const preview_options *o, const char *ki
         v.lights[i].unshadowed = strcmp(kind, "unshadowed") == 0;
     const tiles_job job = { .world = &v.world, .options = o, .samples = o->spp, .film = &whole };
     if (strcmp(renderer, "bare") != 0)
-        tiles_render(&job, &counts);
+        (void)tiles_render(&job, &counts, r);
     if (strcmp(renderer, "whole") != 0)
         bare_render(&v.world, &bare);
     const size_t size = (size_t)(o->width * o->height * bare.channel_count) * sizeof *bare.pixels;

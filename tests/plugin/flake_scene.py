@@ -14,10 +14,10 @@ FACET_ROUGHNESS = 0.1414213562  # alpha .02
 # Flakes per square of the UV map. The picture shows half a metre: at 96 pixels some seven a pixel on the plane, and one in
 # the middle of the sphere but far more at its edge.
 CELLS = {"plane": 512.0, "sphere": 256.0}
-# Of a sun the angle, of a rectangle width and height over its distance: large, so that many flakes are lit and few samples
-# wasted. "far" is a square so far away that every point of the plane sees it alike, and so wide that a pixel of the middle of
+# Of a sun the angle, of a rectangle width and height over its distance: sizes at which the noise of Cycles is least for what a
+# sample costs. "far" is a square so far away that every point of the plane sees it alike, and so wide that a pixel of the middle of
 # the highlight expects facets to be lit in numbers.
-LIGHT_SIZES = {"sun": (math.radians(6.0),), "rect": (0.28, 0.14), "far": (0.3, 0.3)}
+LIGHT_SIZES = {"sun": (math.radians(2.0),), "rect": (0.28, 0.14), "far": (0.3, 0.3)}
 VIEW_RAD = math.radians(15.0)
 LIGHT_DISTANCES = {"sun": 2.0, "rect": 2.0, "far": 500.0}
 

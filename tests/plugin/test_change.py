@@ -253,7 +253,7 @@ class Times(unittest.TestCase):
         times, watched, before = {"anew": [], "changed": []}, Watched(), viewport.changed_parts
         try:
             watched.session.show_view(view(960, 540))
-            for number in range(9):
+            for number in range(5):
                 kind = "changed" if number % 2 else "anew"
                 viewport.changed_parts = before if kind == "changed" else lambda a, b: None
                 material.glint.seed = number + 1

@@ -20,7 +20,7 @@ REFERENCE = os.path.join(HERE, "..", "..", "plugin", "blender", "reference.py")
 SIZE = "96x96"
 # Of the sphere the part that holds nine tenths of its light; the rim has far more flakes in a pixel, and takes samples for them.
 TILE = {"plane": "0,0,96,96", "sphere": "21,21,54,54"}
-SAMPLES = {"plane": "768", "sphere": "2432"}
+SAMPLES = {"plane": "768", "sphere": "1536"}
 MEAN = 0.005
 # The explicit model needs few: of a plane its samples share a pixel's flakes out exactly; a sphere bends within a pixel.
 OUR_SAMPLES = {"plane": "16", "sphere": "256"}

@@ -4,9 +4,12 @@
     blender -b --factory-startup --python-exit-code 3 -P test_jobs.py -- FOLDER GLINT
 """
 
+import contextlib
+import io
 import json
 import math
 import os
+import random
 import sys
 import unittest
 
@@ -83,4 +86,36 @@ class Jobs(unittest.TestCase):
                 operator()
 
 
-blender_case.run(Jobs)
+class Tiles(unittest.TestCase):
+    def setUp(self):
+        fresh()
+
+    def test_any_tile_becomes_its_pixels(self):
+        """Blender keeps borders as fractions in single precision."""
+        from glint import reference, scene_camera
+
+        numbers = random.Random(1)
+        scene = bpy.context.scene
+        render = scene.render
+        for _ in range(2000):
+            width, height = numbers.randint(4, 8192), numbers.randint(4, 8192)
+            render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
+            left, top = numbers.randrange(width), numbers.randrange(height)
+            wide, high = numbers.randint(1, width - left), numbers.randint(1, height - top)
+            reference.choose_tile(render, (left, top, wide, high))
+            self.assertEqual(scene_camera.border(scene), (left, height - top - high, wide, high), (width, height, left, top))
+        reference.choose_tile(render, None)
+        self.assertFalse(render.use_border)
+
+    def test_tiles_that_make_no_sense_are_refused(self):
+        from glint import reference_command
+
+        for tile in ("1,2,3", "a,b,c,d", "-1,0,4,4", "0,0,0,4", "60,0,5,4", "0,61,4,4"):
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as said:
+                reference_command.parse([__file__, "-o", "out.exr", "--size", "64x64", f"--tile={tile}"])
+            self.assertIn("--tile", said.getvalue())
+        values = reference_command.parse([__file__, "-o", "out.exr", "--size", "64x64", "--tile", "60,0,4,64"])
+        self.assertEqual(values.tile, (60, 0, 4, 64))
+
+
+blender_case.run(Jobs, Tiles)

@@ -14,6 +14,7 @@ import threading
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
 import bpy
+import mathutils
 import numpy
 
 import window_case
@@ -95,6 +96,7 @@ def script():
     assert pixels[:, :3].std() > 0.05, "the window shows one colour"
 
     yield from change_and_undo(view, first)
+    yield from light_and_world_keep_the_tree(view)
     yield from turn_while_it_works(view)
     yield from leave(view)
 
@@ -112,9 +114,35 @@ def change_and_undo(view, first):
     for operator, expected in ((bpy.ops.ed.undo, first), (bpy.ops.ed.redo, other), (bpy.ops.ed.undo, first)):
         with bpy.context.temp_override(**override(view)):
             assert operator() == {"FINISHED"}
+        view.tag_redraw()  # which a key does by itself
         yield from wait_for(f"the picture after {operator.idname()}",
                             lambda expected=expected: frame() is not None and same(frame().pixels, expected))
     assert bpy.data.materials["ball"].glint.seed == 0  # undo makes data anew
+
+
+def light_and_world_keep_the_tree(view):
+    """And a mesh that is another one does not."""
+    def energy():
+        bpy.data.lights["sun"].energy = 1.0
+
+    def world():
+        bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 2.0
+
+    def place():
+        bpy.data.objects["sun"].rotation_euler.x = 0.3
+
+    def mesh():
+        ball = next(mesh for mesh in bpy.data.meshes if len(mesh.vertices) > 100)
+        ball.transform(mathutils.Matrix.Scale(0.5, 4))
+        ball.update()
+
+    for change, expected in ((energy, "change"), (world, "change"), (place, "change"), (mesh, "scene")):
+        before = frame().pixels.copy()
+        made.clear()
+        change()
+        view.tag_redraw()
+        yield from wait_for(change.__name__, lambda before=before: frame() is not None and not same(frame().pixels, before))
+        assert made == [expected], (change.__name__, made)
 
 
 def turn_while_it_works(view):

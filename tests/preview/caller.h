@@ -16,10 +16,11 @@ extern const float IDENTITY[16];
     "{\"pbrMetallicRoughness\": {\"baseColorFactor\": [" color ", 1], \"metallicFactor\": 0" more                      \
     "}, \"extensions\": {\"KHR_materials_specular\": {\"specularFactor\": 0}}}"
 
-/* Flakes of a density a square unit of (s, t). */
-#define FLAKES(density)                                                                                                \
-    "{\"pbrMetallicRoughness\": {\"roughnessFactor\": 0.5}, \"extensions\": {\"GLINT_materials_glint\": "              \
+/* Flakes of a density a square unit of (s, t); without the first brace, so that more can stand before. */
+#define NAMELESS_FLAKES(density)                                                                                       \
+    "\"pbrMetallicRoughness\": {\"roughnessFactor\": 0.5}, \"extensions\": {\"GLINT_materials_glint\": "               \
     "{\"glintFactor\": 1, \"glintDensity\": " density ", \"glintFacetRoughness\": 0.05}}}"
+#define FLAKES(density) "{" NAMELESS_FLAKES(density)
 #define GLITTER "{\"materials\": [" FLAKES("2500") "]}"
 
 /* Everything that a scene of one square needs, with a sun straight above. */

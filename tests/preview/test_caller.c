@@ -282,10 +282,10 @@ static void the_plan_says_what_a_budget_leaves_out(void **state)
     char text[4096];
     make_square(&q);
     q.sun.angular_diameter_rad = 0.4F;
-    q.options.materials = "{\"materials\": [" FLAKES("2.5e9") "]}";
+    q.options.materials = "{\"materials\": [{\"name\": \"a\\tb\", " NAMELESS_FLAKES("2.5e9") "]}";
     glint_preview_scene *const s = create(&q.options);
     assert_int_equal(plan_of(s, 0.0F, text, sizeof text), GLINT_PREVIEW_OK);
-    assert_non_null(strstr(text, "\tfacets\ton\tcounted\t"));
+    assert_non_null(strstr(text, "\na b\tfacets\ton\tcounted\t"));
     assert_int_equal(plan_of(s, 0.1F, text, sizeof text), GLINT_PREVIEW_OK);
     assert_non_null(strstr(text, "\tfacets\toff\t"));
     const size_t length = strlen(text);

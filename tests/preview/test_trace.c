@@ -152,6 +152,55 @@ static void a_blended_surface_stops_its_share_of_random_rays(void **state)
     scene_free(&s);
 }
 
+/* ---- packets ---- */
+
+/* Opaque, masked and blended, all in the way of each other; rays from everywhere, of which every fifth is missing. */
+static void a_packet_says_of_every_ray_what_it_says_alone(void **state)
+{
+    (void)state;
+    scene_material pane = scenes_matte(1.0F), ball = scenes_matte(1.0F);
+    pane.alpha_mode = SCENE_ALPHA_BLEND;
+    pane.double_sided = true;
+    scene s = one_square(pane, NULL);
+    float place[16];
+    scenes_translation(place, 0.0F, -0.8F, 0.0F);
+    scenes_add_instance(&s, scenes_add_sphere(&s, scenes_add_material(&s, &ball), 0.7F, 20, 10), place, 1);
+    traced_scene t;
+    traced_open(&t, &s, thirty_percent);
+    int hits = 0, shadows = 0;
+    for (uint32_t k = 0; k < 500; ++k) {
+        trace_ray rays[TRACE_PACKET];
+        const trace_ray *packet[TRACE_PACKET];
+        trace_hit found[TRACE_PACKET];
+        for (uint32_t i = 0; i < TRACE_PACKET; ++i) {
+            const uint32_t bits = hash_mix(k * TRACE_PACKET + i);
+            const double x = (double)hash_uniform(hash_mix(bits + 1)), y = (double)hash_uniform(hash_mix(bits + 2));
+            rays[i] = traced_ray(v3(0.3, k % 2 == 0 ? 2.0 : -2.0, 0.1), v3(2.0 * x - 1.0, -0.1, 2.0 * y - 1.0));
+            rays[i].random = bits;
+            packet[i] = k % 5 != 0 && i % 5 == k % 5 ? NULL : &rays[i];
+        }
+        const uint32_t met = trace_closest_packet(t.trace, packet, TRACE_BLEND_RANDOM, found);
+        const uint32_t dark = trace_occluded_packet(t.trace, packet);
+        for (uint32_t i = 0; i < TRACE_PACKET; ++i) {
+            trace_hit alone;
+            const bool is_there = packet[i] != NULL;
+            assert_int_equal(met >> i & 1U, is_there && trace_closest(t.trace, &rays[i], TRACE_BLEND_RANDOM, &alone));
+            assert_int_equal(dark >> i & 1U, is_there && trace_occluded(t.trace, &rays[i]));
+            if (met >> i & 1U)
+                assert_memory_equal(&alone.weights, &found[i].weights, sizeof alone.weights);
+            hits += (int)(met >> i & 1U);
+            shadows += (int)(dark >> i & 1U);
+        }
+    }
+    assert_true(hits > 1000 && shadows > 1000 && hits < 7500);
+    const trace_ray *nothing[TRACE_PACKET] = { NULL };
+    trace_hit none[TRACE_PACKET];
+    assert_int_equal(trace_closest_packet(t.trace, nothing, TRACE_BLEND_SOLID, none), 0);
+    assert_int_equal(trace_occluded_packet(t.trace, nothing), 0);
+    traced_close(&t);
+    scene_free(&s);
+}
+
 /* ---- what is hardly geometry ---- */
 
 static void an_empty_scene_is_hit_nowhere(void **state)
@@ -253,6 +302,7 @@ int main(void)
         cmocka_unit_test(the_bitangent_follows_the_handedness_of_the_tangent),
         cmocka_unit_test(a_mask_cuts_holes_for_camera_and_shadow_rays),
         cmocka_unit_test(a_blended_surface_stops_its_share_of_random_rays),
+        cmocka_unit_test(a_packet_says_of_every_ray_what_it_says_alone),
         cmocka_unit_test(an_empty_scene_is_hit_nowhere),
         cmocka_unit_test(triangles_without_area_are_hit_nowhere),
         cmocka_unit_test(a_flattened_instance_is_left_out_with_a_warning),

@@ -18,6 +18,9 @@ from .viewport import Session, View
 LOOK_EVERY_S = 0.05
 # Samples of the spheres that show a material.
 PREVIEW_SAMPLES = 16
+# Types of objects without a surface, and data besides meshes that has one.
+WITHOUT_SURFACE = {"LIGHT", "CAMERA", "EMPTY", "LIGHT_PROBE", "SPEAKER", "ARMATURE", "LATTICE"}
+WITH_SURFACE = (bpy.types.Curve, bpy.types.MetaBall)
 # What Blender shows as infinitely far.
 FAR = 1e10
 
@@ -30,6 +33,14 @@ def _depth(values, scale):
 def _z_up(vectors):
     """Rows x y z with y up as rows with z up."""
     return numpy.stack((vectors[:, 0], -vectors[:, 2], vectors[:, 1]), axis=1)
+
+
+def _changes_meshes(update):
+    """Whether arrays of meshes may be others now. Blender calls a change of materials, nodes and lights one of geometry, too."""
+    source = update.id
+    if isinstance(source, bpy.types.Object):
+        return update.is_updated_geometry and source.type not in WITHOUT_SURFACE
+    return isinstance(source, bpy.types.Mesh) or (update.is_updated_geometry and isinstance(source, WITH_SURFACE))
 
 
 class GlintRenderEngine(bpy.types.RenderEngine):
@@ -170,7 +181,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
 
     def _forget(self, depsgraph):
         for update in depsgraph.updates:
-            if update.is_updated_geometry or isinstance(update.id, bpy.types.Mesh):
+            if _changes_meshes(update):
                 self.cache.forget_geometry()
             if isinstance(update.id, bpy.types.Image):
                 self.cache.forget_images()
