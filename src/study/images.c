@@ -205,7 +205,7 @@ static void check_accuracies(study_run *run, picture_error (*found)[ACCURACIES +
         "seconds of one core",
         "cost_s",
         "what was left out, over the mean",
-        "Take --accuracy .02 or more but for references: lights with a shape then cost a quarter."
+        "Take --accuracy .02 or more but for references: the picture then takes a quarter of the time."
     };
     study_front(run, &dial, settings, ACCURACIES + 1);
 }
