@@ -13,6 +13,9 @@
 #include "pictures.h"
 #include "plan_cases.h"
 
+/* The error is at most so many times what the plan foresees: 1.32 was measured, where light bounces seldom. */
+#define FORESEEN 1.5
+
 static glint_plan_outcome foreseen;
 
 static void note_outcome(const glint_plan *plan, void *user)
@@ -49,6 +52,9 @@ static void what_is_left_out_stays_within_the_budget(void **state)
                        foreseen.is_met ? "" : " (not met)");
                 if (!(error <= budgets[j]))
                     fail_msg("%s: error %g, expected at most %g", plan_case_name(i), error, budgets[j]);
+                /* What was foreseen comes from a few hundred pixels: seldom too little, and then not by much. */
+                if (!(error <= FORESEEN * (double)foreseen.error + 1e-3))
+                    fail_msg("%s: error %g, foreseen %g", plan_case_name(i), error, (double)foreseen.error);
                 image_free(&less);
             }
             image_free(&all);
