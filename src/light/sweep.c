@@ -164,8 +164,15 @@ static int visit_panel(const area_light *l, const sweep_map *m, int piece, const
         visit(node, user);
         return 1;
     }
+    /* Ends know the whole turn: around a light it is none or all, and so must be the sum. */
+    double size = 0.0;
     for (int i = 0; i < NODES; i++)
+        size += fabs(node[i].turn);
+    for (int i = 0; i < NODES; i++) {
+        if (size > 0.0)
+            node[i].turn += (whole_turn - turn) * (fabs(node[i].turn) / size);
         visit(&node[i], user);
+    }
     return 1;
 }
 

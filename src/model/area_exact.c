@@ -64,6 +64,23 @@ static void add_spoke(const sweep_node *n, void *user)
     }
 }
 
+static void find_highest(const sweep_node *n, void *user)
+{
+    double *highest = user;
+    *highest = real_max(*highest, n->v);
+}
+
+/* Where spokes begin. Of a light that does not hold the peak it is the boundary's highest level: where the boundary
+ * passes the peak closely it turns fast, and spokes there had better be short. */
+static double first_level(const area_light *light, const sweep_map *map, vec3d peak)
+{
+    if (area_touches(light, peak))
+        return 1.0;
+    double highest = 0.0;
+    sweep_each(light, map, find_highest, &highest);
+    return highest;
+}
+
 void area_facets_exact(const model_query *q, const area_light *light, area_facets *value)
 {
     area_light seen = *light;
@@ -78,7 +95,7 @@ void area_facets_exact(const model_query *q, const area_light *light, area_facet
                             vec3d_of(q->wo),
                             s.distribution.kind == NDF_BECKMANN };
     const vec3d mirrored = { -(double)q->wo.x, -(double)q->wo.y, (double)q->wo.z };
-    s.v0 = area_touches(&seen, mirrored) ? 1.0 : sweep_level(&map, seen.middle);
+    s.v0 = first_level(&seen, &map, mirrored);
     sweep_each(&seen, &map, add_spoke, &s);
     const double sign = s.sum.facets < 0.0 ? -1.0 : 1.0;
     *value = (area_facets){ .facets = sign * s.sum.facets,

@@ -207,6 +207,41 @@ static void a_light_of_no_area_shows_nothing_and_a_small_one_its_area(void **sta
     }
 }
 
+/* A disk seen nearly edge-on, moved past the mirrored view: where its rim passes closely, the azimuth around the peak
+ * turns by half a circle at once. The fit of the fast integral is not asked. */
+static void a_rim_may_pass_the_mirrored_view_closely(void **state)
+{
+    (void)state;
+    const double alpha = (double)0.1F, view = 70.0 * PI / 180.0, s = sin(view), c = cos(view), radius = 0.5;
+    const float wo[3] = { (float)s, 0.0F, (float)c };
+    /* Along the ray that is mirrored, but for five degrees; across it. */
+    const double tilt = 85.0 * PI / 180.0, u = radius * cos(tilt), w = radius * sin(tilt);
+    const double x[3] = { u * c - w * s, 0.0, u * s + w * c }, y[3] = { 0.0, radius, 0.0 };
+    for (int k = 0; k < 2; k++) {
+        glint_material *m = lobe_material(k, GLINT_AREA_LIGHT_EXACT, (float)alpha);
+        const area_truth_lobe lobe = { k, alpha, alpha };
+        for (int i = 0; i < 52; i++) {
+            const double angle = PI / 3.0 * (i / 13), past = 1.0 + 0.004 * alpha * (i % 13 - 6) / radius;
+            glint_area_light l = { .kind = GLINT_AREA_DISK, .two_sided = 1U };
+            for (int d = 0; d < 3; d++) {
+                const double mirrored = d == 0 ? -s : d == 1 ? 0.0 : c;
+                l.half_x[d] = (float)x[d];
+                l.half_y[d] = (float)y[d];
+                l.center[d] = (float)(mirrored - past * (cos(angle) * x[d] + sin(angle) * y[d]));
+            }
+            const area_truth truth = area_truth_of(&lobe, wo, &l, 300);
+            glint_value v;
+            glint_eval_area(m, NULL, NULL, wo, &l, &v);
+            /* Half of what the exact integral promises. */
+            if (!(fabs((double)v.smooth[0] / truth.specular - 1.0) <= 0.005))
+                fail_msg("distribution %d, %.0f degrees along the rim, %+.3f of the lobe's width beyond it: %.6g, by "
+                         "brute force %.6g",
+                         k, angle * 180.0 / PI, (past - 1.0) * radius / alpha, (double)v.smooth[0], truth.specular);
+        }
+        glint_material_destroy(m);
+    }
+}
+
 /* What covers the whole sky is the sky, whatever its shape. */
 static void lights_all_around_are_alike(void **state)
 {
@@ -241,6 +276,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_light_that_touches_the_surface_is_no_exception, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(a_light_of_no_area_shows_nothing_and_a_small_one_its_area, with_traps,
                                         without_traps),
+        cmocka_unit_test_setup_teardown(a_rim_may_pass_the_mirrored_view_closely, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(lights_all_around_are_alike, with_traps, without_traps),
     };
     return cmocka_run_group_tests(tests, make_materials, free_materials);
