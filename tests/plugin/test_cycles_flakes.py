@@ -23,7 +23,8 @@ TILE = {"plane": "0,0,96,96", "sphere": "21,21,54,54"}
 SAMPLES = {"plane": "768", "sphere": "1536"}
 MEAN = 0.005
 # The explicit model needs few: of a plane its samples share a pixel's flakes out exactly; a sphere bends within a pixel.
-OUR_SAMPLES = {"plane": "16", "sphere": "256"}
+OUR_SAMPLES = {"plane": 16, "sphere": 256}
+OURS_IN_PROOF = 16  # times as many, lest they be the noise that is left
 
 
 def run(*command):
@@ -43,7 +44,7 @@ def main():
     scene, ours, cycles = (name + end for end in (".glb", ".exr", "_cycles.exr"))
     flake_scene.write_glb(scene, *flake_scene.scene(shape, distribution, light))
     run(glint, "render", scene, "-o", ours, "--model", "explicit", "--facets", "cycles", *part, "--spp",
-        OUR_SAMPLES[shape], "--bounces", "0")
+        str(OUR_SAMPLES[shape] * (OURS_IN_PROOF if is_proof else 1)), "--bounces", "0")
     run("blender", "-b", "--factory-startup", "--python-exit-code", "3", "-P", REFERENCE, "--", scene, "-o", cycles,
         *part, "--spp", samples)
     with open(name + "_cycles.json", encoding="utf-8") as file:
