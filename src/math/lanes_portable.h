@@ -2,6 +2,7 @@
 #ifndef MATH_LANES_PORTABLE_H
 #define MATH_LANES_PORTABLE_H
 
+#include "math/lanes_gather.h"
 #include "math/lanes_mask.h"
 
 typedef float half_float __attribute__((vector_size(2 * GLINT_LANES)));
@@ -53,25 +54,6 @@ static inline vfloat floor_f(vfloat x)
     for (int i = 0; i < GLINT_LANES; i++)
         x[i] = __builtin_floorf(x[i]);
     return x;
-}
-
-static inline vfloat lookup_f(const float *table, vint index)
-{
-    vfloat v = { 0 };
-    for (int i = 0; i < GLINT_LANES; i++)
-        v[i] = table[index[i]];
-    return v;
-}
-
-static inline vuint gather_u(const void *base, vint byte)
-{
-    vuint v = { 0 };
-    for (int i = 0; i < GLINT_LANES; i++) {
-        uint32_t x;
-        memcpy(&x, (const char *)base + byte[i], sizeof(x));
-        v[i] = x;
-    }
-    return v;
 }
 
 static inline vdouble widen(vfloat f)

@@ -4,6 +4,7 @@
 
 #include <immintrin.h>
 
+#include "math/lanes_gather.h"
 #include "math/lanes_mask.h"
 
 static inline int any(vmask m)
@@ -80,22 +81,6 @@ static inline vfloat floor_f(vfloat x)
 }
 
 #endif
-
-static inline vfloat lookup_f(const float *table, vint index)
-{
-    return (vfloat){ table[index[0]], table[index[1]], table[index[2]], table[index[3]] };
-}
-
-static inline vuint gather_u(const void *base, vint byte)
-{
-    vuint v = { 0 };
-    for (int i = 0; i < GLINT_LANES; i++) {
-        uint32_t x;
-        memcpy(&x, (const char *)base + byte[i], sizeof(x));
-        v[i] = x;
-    }
-    return v;
-}
 
 static inline vdouble widen(vfloat f)
 {

@@ -107,6 +107,18 @@ class GLINT_PT_light(Panel, bpy.types.Panel):
             layout.prop(light, "spot_blend", text="Blend", slider=True)
 
 
+def draw_surface(layout, owner, plain):
+    """Nodes of a material or world; its plain values where nothing is linked."""
+    layout.use_property_split = True
+    layout.prop(owner, "use_nodes", icon="NODETREE")
+    output = owner.node_tree.get_output_node("ALL") if owner.use_nodes else None
+    if output is not None:
+        layout.template_node_view(owner.node_tree, output, output.inputs["Surface"])
+        return
+    for name in plain:
+        layout.prop(owner, name)
+
+
 class GLINT_PT_surface(Panel, bpy.types.Panel):
     bl_label = "Surface"
     bl_context = "material"
@@ -116,16 +128,7 @@ class GLINT_PT_surface(Panel, bpy.types.Panel):
         return context.material is not None and super().poll(context)
 
     def draw(self, context):
-        layout, material = self.layout, context.material
-        layout.use_property_split = True
-        layout.prop(material, "use_nodes", icon="NODETREE")
-        if material.use_nodes:
-            output = material.node_tree.get_output_node("ALL")
-            if output is not None:
-                layout.template_node_view(material.node_tree, output, output.inputs["Surface"])
-            return
-        for name in ("diffuse_color", "metallic", "roughness"):
-            layout.prop(material, name)
+        draw_surface(self.layout, context.material, ("diffuse_color", "metallic", "roughness"))
 
 
 class GLINT_PT_world(Panel, bpy.types.Panel):
@@ -137,14 +140,7 @@ class GLINT_PT_world(Panel, bpy.types.Panel):
         return context.world is not None and super().poll(context)
 
     def draw(self, context):
-        layout, world = self.layout, context.world
-        layout.use_property_split = True
-        layout.prop(world, "use_nodes", icon="NODETREE")
-        output = world.node_tree.get_output_node("ALL") if world.use_nodes else None
-        if output is not None:
-            layout.template_node_view(world.node_tree, output, output.inputs["Surface"])
-        else:
-            layout.prop(world, "color")
+        draw_surface(self.layout, context.world, ("color",))
 
 
 PANELS = (GLINT_PT_sampling, GLINT_PT_performance, GLINT_PT_film, GLINT_PT_passes, GLINT_PT_light, GLINT_PT_surface, GLINT_PT_world)
