@@ -37,15 +37,15 @@ static int is_smooth_without(const glint_material_options *o)
     return !o || o->model != GLINT_MODEL_DICTIONARY;
 }
 
-/* The explicit model knows all of a cap, of which the smooth value takes the middle. Half vectors turn by half of the
- * light's radius r, and GGX falls by (r / 2 alpha)^2 in the mean over a disc around its top. A renderer takes lights as
- * caps up to a radius of 0.2 alpha, and up to 0.02 whatever alpha is. */
+/* The explicit model knows all of a cap, of which the smooth value takes the middle. A renderer sees a light as a shape
+ * where that is off by more than this. */
+#define CAP_BIAS 0.01
+
 static double explicit_bias(const glint_plan_material *m)
 {
     const int is_explicit = (is_discrete(m->base) && m->base->model == GLINT_MODEL_EXPLICIT) ||
                             (is_discrete(m->coat) && m->coat->model == GLINT_MODEL_EXPLICIT);
-    const double over_alpha = 0.01 / (double)m->alpha.least;
-    return is_explicit ? fmax(0.01, over_alpha * over_alpha) : 0.0;
+    return is_explicit ? CAP_BIAS : 0.0;
 }
 
 int plan_fades(const glint_plan *p, uint32_t material)

@@ -1,4 +1,4 @@
-/* Measures what the plan reckons with, and prints it as src/plan/cost_table.c: `./dev bench` builds it, then
+/* Measures what the plan reckons with, and prints it as src/plan/cost_table.c: `./dev bench costs` builds it, then
  *
  *     build/release/bench/costs > src/plan/cost_table.c
  *
@@ -17,6 +17,10 @@
 #include "statistics.h"
 
 enum { ROUNDS = 9, CALLS = 1500, SIDE = 48, FEW = 4, MANY = 16 };
+
+/* The fit by itself is nearer by now. But what it is off by also turns single facets on and off, sqrt(error / (N p)) of
+ * a pixel, which the plan does not reckon with: .007 of a picture (glint study --images). So no less is promised. */
+#define LEAST_LTC_ERROR 0.01
 
 static double cost[PLAN_COST_COUNT];
 static double ltc_error[2];
@@ -252,11 +256,11 @@ int main(void)
 {
     measure_models();
     measure_samples();
-    ltc_error[0] = measure_ltc(GLINT_DISTRIBUTION_GGX);
-    ltc_error[1] = measure_ltc(GLINT_DISTRIBUTION_BECKMANN);
+    ltc_error[0] = fmax(measure_ltc(GLINT_DISTRIBUTION_GGX), LEAST_LTC_ERROR);
+    ltc_error[1] = fmax(measure_ltc(GLINT_DISTRIBUTION_BECKMANN), LEAST_LTC_ERROR);
     puts("/* What things cost and how far they are off. Measured, and written, by tests/bench/costs.c:\n"
          " *\n"
-         " *     ./dev bench && build/release/bench/costs > src/plan/cost_table.c && ./dev format\n"
+         " *     ./dev bench costs && build/release/bench/costs > src/plan/cost_table.c && ./dev format\n"
          " */\n"
          "#include \"plan/cost_table.h\"\n\n"
          "const float plan_costs[PLAN_COST_COUNT] = {");
