@@ -33,6 +33,36 @@ static void put_escaped(output_file *f, const char *text)
     }
 }
 
+/* The exponent of a number that printf wrote behind this digit, "e-05", and where it ends; 0: there is none. */
+static int exponent_at(const char *text, const char **end)
+{
+    char *after;
+    if (text[0] < '0' || text[0] > '9' || text[1] != 'e' || (text[2] != '-' && text[2] != '+'))
+        return 0;
+    const long exponent = strtol(text + 2, &after, 10);
+    *end = after;
+    return after > text + 3 ? (int)exponent : 0;
+}
+
+/* Escaped, and 6.1e-05 as people write it. */
+static void put_sentence(output_file *f, const char *text)
+{
+    char power[64], one[2] = { '\0', '\0' };
+    while (*text) {
+        const char *after = text;
+        const int exponent = exponent_at(text, &after);
+        one[0] = *text;
+        put_escaped(f, one);
+        if (exponent == 0) {
+            ++text;
+            continue;
+        }
+        snprintf(power, sizeof power, " · 10<sup>%s%d</sup>", exponent < 0 ? "−" : "", abs(exponent));
+        put(f, power);
+        text = after;
+    }
+}
+
 /* before, the text, after. */
 static void put_between(output_file *f, const char *before, const char *text, const char *after)
 {
@@ -127,7 +157,8 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     for (size_t i = 0; i < o->line_count; ++i) {
         const study_line *const line = &o->lines[i];
         put(f, !line->is_check ? "<li>" : line->holds ? "<li class=\"holds\">" : "<li class=\"fails\">");
-        put_between(f, "", line->text, "</li>\n");
+        put_sentence(f, line->text);
+        put(f, "</li>\n");
     }
     put(f, "</ul>\n");
     put_figures(f, folder, o);
