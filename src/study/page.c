@@ -33,15 +33,14 @@ static void put_escaped(output_file *f, const char *text)
     }
 }
 
-/* The exponent of a number that printf wrote behind this digit, "e-05", and where it ends; 0: there is none. */
-static int exponent_at(const char *text, const char **end)
+/* Where the exponent ends that printf wrote behind this digit, "e-05"; NULL: there is none. */
+static const char *exponent_at(const char *text, int *exponent)
 {
-    char *after;
     if (text[0] < '0' || text[0] > '9' || text[1] != 'e' || (text[2] != '-' && text[2] != '+'))
-        return 0;
-    const long exponent = strtol(text + 2, &after, 10);
-    *end = after;
-    return after > text + 3 ? (int)exponent : 0;
+        return NULL;
+    char *end;
+    *exponent = (int)strtol(text + 2, &end, 10);
+    return end > text + 3 ? end : NULL;
 }
 
 /* Escaped, and 6.1e-05 as people write it. */
@@ -49,17 +48,14 @@ static void put_sentence(output_file *f, const char *text)
 {
     char power[64], one[2] = { '\0', '\0' };
     while (*text) {
-        const char *after = text;
-        const int exponent = exponent_at(text, &after);
+        int exponent = 0;
+        const char *const end = exponent_at(text, &exponent);
         one[0] = *text;
         put_escaped(f, one);
-        if (exponent == 0) {
-            ++text;
-            continue;
-        }
         snprintf(power, sizeof power, " · 10<sup>%s%d</sup>", exponent < 0 ? "−" : "", abs(exponent));
-        put(f, power);
-        text = after;
+        if (exponent != 0)
+            put(f, power);
+        text = end ? end : text + 1;
     }
 }
 
