@@ -73,12 +73,15 @@ static double block_variance(const float *pixels, int block)
     return moments_variance(&m);
 }
 
-static void measure_patch(const glint_material *m, double facets, int seeds, patch *out)
+/* from: of the study, before it. */
+static void measure_patch(study_run *run, double from, const glint_material *m, double facets, int seeds, patch *out)
 {
     static float pixels[PIXELS];
     double elapsed = 0.0;
     *out = (patch){ .cost_ns = 0.0 };
     for (int seed = 0; seed < seeds; seed++) {
+        if (!study_goes_on(run, from + (double)seed / (seeds * DENSITIES * KINDS)))
+            return;
         const double start = study_cpu_s();
         shade(m, 1000U + (uint32_t)seed, facets, pixels);
         elapsed += study_cpu_s() - start;
@@ -123,11 +126,12 @@ static void measure_all(study_run *run, int seeds, patch found[DENSITIES][KINDS]
                 "model,facets,cost_ns,mean_error,mean_bar,deviation_1,deviation_4,deviation_16,deviation_4_error,"
                 "deviation_4_bar,seeds");
     for (int d = 0; d < DENSITIES; d++)
-        for (int k = KINDS - 1; k >= 0 && study_goes_on(run, (d + (KINDS - 1.0 - k) / KINDS) / DENSITIES); k--) {
-            glint_material *const m = material_of(run, k, facets_of[d]);
+        for (int k = KINDS - 1; k >= 0; k--) {
+            const double done = (d + (KINDS - 1.0 - k) / KINDS) / DENSITIES;
+            glint_material *const m = study_goes_on(run, done) ? material_of(run, k, facets_of[d]) : NULL;
             if (!m)
                 return;
-            measure_patch(m, facets_of[d], seeds, &found[d][k]);
+            measure_patch(run, done, m, facets_of[d], seeds, &found[d][k]);
             glint_material_destroy(m);
             const patch *const p = &found[d][k], *const truth = &found[d][EXPLICIT];
             const double a = moments_standard_error(&p->mean), b = moments_standard_error(&truth->mean);
