@@ -24,4 +24,8 @@ glint_area_light area_turn(const glint_area_light *from, vec3 x, vec3 y, vec3 z)
 /* All zero where the point sees nothing of the light. */
 void area_eval(const model_query *q, area_value *value);
 
+/* The same for a light that takes few points (area_plain.h), by the fast method. 0: it is none, and takes the other. */
+int area_eval_plain(const model_query *q, area_value *value);
+void area_eval_any(const model_query *q, area_value *value);
+
 #endif
