@@ -75,8 +75,32 @@ void area_eval_any(const model_query *q, area_value *value)
     }
 }
 
+static float between(float a, float b, float share)
+{
+    return a + share * (b - a);
+}
+
+void area_mix(area_value *value, const area_value *other, float share)
+{
+    for (int c = 0; c < 3; c++) {
+        value->specular[c] = between(value->specular[c], other->specular[c], share);
+        value->diffuse[c] = between(value->diffuse[c], other->diffuse[c], share);
+    }
+    value->lit_probability = between(value->lit_probability, other->lit_probability, share);
+    value->h = vec3_add(vec3_scale(value->h, 1.0F - share), vec3_scale(other->h, share));
+    value->cap = between(value->cap, other->cap, share);
+}
+
 void area_eval(const model_query *q, area_value *value)
 {
-    if (q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT || !area_eval_plain(q, value))
-        area_eval_any(q, value);
+    const int is_exact = q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
+    const float left = is_exact ? 1.0F : area_eval_plain(q, value);
+    if (!(left > 0.0F))
+        return;
+    area_value other;
+    area_eval_any(q, &other);
+    if (left < 1.0F)
+        area_mix(value, &other, left);
+    else
+        *value = other;
 }

@@ -78,7 +78,7 @@ static void sum_lights(const area_lobe *l, const plain_light *p, int has_base, p
 #define JOIN(a, b) JOIN_(a, b)
 
 void JOIN(area_kernel_, GLINT_LANES)(const glint_material_options *o, const area_crowd *crowd, size_t count, int counts,
-                                     lobe_lit *lit, int32_t left[LOBE_MOST])
+                                     lobe_lit *lit, float left[LOBE_MOST])
 {
     const ndf_kind kind = lobe_kind(o);
     for (size_t i = 0; i < count; i += GLINT_LANES) {
@@ -87,7 +87,7 @@ void JOIN(area_kernel_, GLINT_LANES)(const glint_material_options *o, const area
         const area_lobe lobe =
             area_lobe_of(kind == NDF_GGX, o->fresnel == GLINT_FRESNEL_SCHLICK, s->wo,
                          s->wo.z + ndf_masked_of(kind, s->alpha_x, s->alpha_y, s->wo), s->alpha_x, s->alpha_y);
-        const plain_light light = plain_light_of(&lobe, &q);
+        const plain_light any_light = plain_light_of(&lobe, &q), light = plain_light_for_sums(&any_light);
         const vfloat zero = splat(0.0F);
         const int has_base = any(less(zero, s->diffuse[0]) | less(zero, s->diffuse[1]) | less(zero, s->diffuse[2]));
         plain_sums sums;
@@ -98,7 +98,7 @@ void JOIN(area_kernel_, GLINT_LANES)(const glint_material_options *o, const area
             store_f(lit->specular[c] + i, value.specular[c]);
             store_f(lit->diffuse[c] + i, value.diffuse[c]);
         }
-        store_u((uint32_t *)left + i, (vuint)mask_bits(equal_i(light.rule, splat_i(PLAIN_LEFT))));
+        store_f(left + i, light.left);
         if (!counts)
             continue;
         const area_lit facets = plain_lit(o, &q, &sums);

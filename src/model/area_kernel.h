@@ -15,10 +15,10 @@ typedef struct area_crowd {
     float size[LOBE_MOST]; /* radius of a sphere, solid angle of a sun */
 } area_crowd;
 
-/* What area_eval gives, bit for bit, for plain lights (area_plain.h); left: -1 where a light is none and nothing is
- * set, else 0. count: a multiple of the width. counts: whether facets will be counted. */
+/* What area_eval_plain gives, bit for bit, and in left what it returns. count: a multiple of the width. counts: whether
+ * facets will be counted. */
 typedef void area_kernel(const glint_material_options *options, const area_crowd *crowd, size_t count, int counts,
-                         lobe_lit *lit, int32_t left[LOBE_MOST]);
+                         lobe_lit *lit, float left[LOBE_MOST]);
 
 area_kernel area_kernel_1, area_kernel_4, area_kernel_8, area_kernel_16;
 

@@ -45,6 +45,21 @@ static void gather(const model_query *q, size_t i, area_crowd *c)
     }
 }
 
+static area_value take(const lobe_lit *lit, size_t i, int counts)
+{
+    area_value v = { .lit_probability = 0.0F };
+    for (int c = 0; c < 3; c++) {
+        v.specular[c] = lit->specular[c][i];
+        v.diffuse[c] = lit->diffuse[c][i];
+    }
+    if (!counts)
+        return v;
+    v.h = (vec3){ lit->h[0][i], lit->h[1][i], 0.0F }; /* nobody asks for its height */
+    v.cap = lit->cap[i];
+    v.lit_probability = lit->p[i];
+    return v;
+}
+
 static void put(const area_value *v, lobe_lit *lit, size_t i)
 {
     for (int c = 0; c < 3; c++) {
@@ -57,11 +72,30 @@ static void put(const area_value *v, lobe_lit *lit, size_t i)
     lit->p[i] = v->lit_probability;
 }
 
+/* What area_eval does after area_eval_plain. */
+static void finish(const model_query *q, float left, int counts, lobe_lit *lit, size_t i)
+{
+    area_value other;
+    area_eval_any(q, &other);
+    if (left < 1.0F) {
+        area_value value = take(lit, i, counts);
+        area_mix(&value, &other, left);
+        other = value;
+    }
+    put(&other, lit, i);
+}
+
+static int is_polygon(const model_query *q)
+{
+    return q->area_light->kind == GLINT_AREA_POLYGON;
+}
+
 void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *lit)
 {
+    const glint_material_options *o = &q->material->options;
+    const int is_exact = o->area_light_method == GLINT_AREA_LIGHT_EXACT;
     area_crowd crowd;
-    int32_t left[LOBE_MOST];
-    const int is_exact = q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
+    float left[LOBE_MOST];
     if (!is_exact) {
         for (size_t i = 0; i < count; i++)
             gather(&q[i], i, &crowd);
@@ -69,12 +103,17 @@ void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *li
         const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
         for (size_t i = count; i < padded; i++)
             gather(&q[count - 1], i, &crowd);
-        area_kernel_widest(MOST_LANES)(&q->material->options, &crowd, padded, counts, lit, left);
+        area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
     }
-    for (size_t i = 0; i < count; i++)
-        if (is_exact || left[i]) {
+    for (size_t i = 0; i < count; i++) {
+        if (is_exact) {
+            finish(&q[i], 1.0F, counts, lit, i);
+        } else if (is_polygon(&q[i])) {
             area_value value;
-            (q[i].area_light->kind == GLINT_AREA_POLYGON ? area_eval : area_eval_any)(&q[i], &value);
+            area_eval(&q[i], &value);
             put(&value, lit, i);
+        } else if (left[i] > 0.0F) {
+            finish(&q[i], left[i], counts, lit, i);
         }
+    }
 }

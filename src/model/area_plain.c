@@ -62,18 +62,16 @@ static area_patch patch_of(const plain_light *p)
     return (area_patch){ vec3_of(p->middle), vec3_of(p->u), vec3_of(p->v), p->size };
 }
 
-static area_nodes nodes_of(const model_query *q, const area_lobe *l)
+static void begin_nodes(const model_query *q, const area_lobe *l, area_nodes *n)
 {
-    area_nodes n;
-    n.is_ggx = l->is_ggx;
-    n.is_schlick = l->is_schlick;
-    n.has_base = has_base(q);
-    n.wo = q->wo;
-    n.visible_o = l->visible_o;
-    n.alpha_x = l->alpha_x;
-    n.alpha_y = l->alpha_y;
-    n.count = 0;
-    return n;
+    n->is_ggx = l->is_ggx;
+    n->is_schlick = l->is_schlick;
+    n->has_base = has_base(q);
+    n->wo = q->wo;
+    n->visible_o = l->visible_o;
+    n->alpha_x = l->alpha_x;
+    n->alpha_y = l->alpha_y;
+    n->count = 0;
 }
 
 static plain_sums sums_of(const area_nodes *n, int rule)
@@ -140,7 +138,7 @@ static int find_fan(const glint_area_light *l, fan *f)
 
 /* As plain_light_of. Triangles between all corners and the middle are half as wide as those between one corner and the
  * others; which they are is said in *from_middle. */
-static int rule_of_fan(const area_lobe *l, const fan *f, int two_sided, int *from_middle)
+static int rule_of_fan(const area_lobe *l, const fan *f, int two_sided, int *from_middle, float *left)
 {
     float reach2 = 0.0F, height = 0.0F;
     vfloat3 normal = { 0.0F, 0.0F, 0.0F }; /* as long as twice the area */
@@ -156,13 +154,14 @@ static int rule_of_fan(const area_lobe *l, const fan *f, int two_sided, int *fro
         return PLAIN_LEFT;
     if ((!two_sided && facing > 0.0F) || f->middle.z + height < -1e-4F)
         return PLAIN_DARK;
-    if (!(f->middle.z > height + 1e-4F))
+    if (!(f->middle.z > height))
         return PLAIN_LEFT;
     float bend = plain_bend(l, f->middle, reach, reach, height);
     *from_middle = !(bend < PLAIN_COARSE);
     if (*from_middle)
         bend = plain_bend(l, f->middle, 0.5F * reach, reach, height);
-    /* More points than that cost more than what is not plain. */
+    /* More points than that cost more than the other method. */
+    *left = *from_middle ? plain_share_left(bend, PLAIN_FADES / PLAIN_FINE * PLAIN_MIDDLE, PLAIN_MIDDLE) : 0.0F;
     return bend < PLAIN_MIDDLE ? CUBATURE_TRIANGLE * CUBATURE_LEVELS + plain_level(bend) : PLAIN_LEFT;
 }
 
@@ -182,7 +181,7 @@ static void take_triangles(const fan *f, int from_middle, area_nodes *n)
 
 /* ---- contract ---- */
 
-int area_eval_plain(const model_query *q, area_value *value)
+float area_eval_plain(const model_query *q, area_value *value)
 {
     const glint_material_options *o = &q->material->options;
     const plain_query plain = query_of(q);
@@ -190,22 +189,25 @@ int area_eval_plain(const model_query *q, area_value *value)
     const area_lobe l =
         area_lobe_of(lobe_kind(o) == NDF_GGX, o->fresnel == GLINT_FRESNEL_SCHLICK, s->wo,
                      s->wo.z + ndf_masked_of(lobe_kind(o), s->alpha_x, s->alpha_y, s->wo), s->alpha_x, s->alpha_y);
-    area_nodes nodes = nodes_of(q, &l);
+    area_nodes nodes;
     int rule, from_middle = 0;
+    float left = 0.0F;
+    begin_nodes(q, &l, &nodes);
     if (q->area_light->kind == GLINT_AREA_POLYGON) {
         fan f;
-        rule = find_fan(q->area_light, &f) ? rule_of_fan(&l, &f, q->area_light->two_sided != 0U, &from_middle)
-                                           : PLAIN_LEFT;
+        const int two_sided = q->area_light->two_sided != 0U;
+        rule = find_fan(q->area_light, &f) ? rule_of_fan(&l, &f, two_sided, &from_middle, &left) : PLAIN_LEFT;
         if (rule >= 0)
             take_triangles(&f, from_middle, &nodes);
     } else {
         const plain_light p = plain_light_of(&l, &plain);
         rule = p.rule;
+        left = p.left;
         nodes.patch[nodes.count++] = patch_of(&p);
     }
     if (rule == PLAIN_LEFT)
-        return 0;
+        return 1.0F;
     const plain_sums sums = rule == PLAIN_DARK ? plain_no_sums() : sums_of(&nodes, rule);
     shade(q, &plain, &sums, value);
-    return 1;
+    return left;
 }
