@@ -66,7 +66,7 @@ def beside_cycles(document, error):
 def gather(folder, library, glint):
     """(what, target, whether less is better, reached)"""
     kernel, evaluations, growth, roofline = (read(folder, f"{n}.json") for n in ("kernel", "eval", "growth", "roofline"))
-    pictures = read(folder, "frames.json")
+    pictures, start = read(folder, "frames.json"), read(folder, "start.json")
     mix, eval_table = "mix, N p .01 to 1000", "one point, one light"
     law = draws(glint, folder)
     peak = {w["lanes"]: w["of_peak"] for w in (roofline or {}).get("widths", [])}
@@ -93,6 +93,8 @@ def gather(folder, library, glint):
         ("Embree's share of loading ten million triangles", 0.5, False, ((growth or {}).get("triangles") or {}).get("embree_share")),
         ("seconds to 10 % error, times as fast as Cycles, slowest scene", 100.0, False, slowest),
         ("the same, fastest scene", 100.0, False, fastest),
+        ("seconds of glint render, the example, 64 x 64, one sample", 0.15, True, row_of(start, "start", "render, 1 sample", "seconds")),
+        ("the same with 16 samples", 0.15, True, row_of(start, "start", "render, 16 samples", "seconds")),
         ("tables of the library, MiB", 1.0, True, table_mib(library)),
     ]
     return rows
