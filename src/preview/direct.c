@@ -6,6 +6,7 @@
 
 #include "preview/area_shadow.h"
 #include "preview/choose_lights.h"
+#include "preview/hash.h"
 
 /* The ray that a cap waits for, towards a place of the light. */
 static void aim(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
@@ -19,6 +20,36 @@ static void aim(const world *w, const hit *h, const light *l, const light_view *
     if (light_is_soft(l))
         sampler_pair(random, dimension, u);
     light_pick(l, view, ray->origin, u, &ray->direction, &ray->far);
+}
+
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap)
+{
+    if (light_is_area(l) ? !light_see_round(l, position, cap) : !light_see(l, position, cap) || !(cap->sine > 0.0))
+        return (double)INFINITY;
+    return shade_cap_error(p, cap->wi, cap->sine) + light_round_error(l, cap);
+}
+
+/* A shape that all of the point sees becomes a cap where the view allows that. Up to half of the error that may be all
+ * samples take the cap, beyond it ever fewer, so that no seam shows where shapes begin. */
+static void take_cap(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                     const light *l, light_query *q)
+{
+    light_view cap;
+    if (q->shade.area.hidden > 0.0F)
+        return;
+    const double error = direct_cap_error(l, p, h->position, &cap), most = w->cap_error;
+    if (!(error < most) || !shade_faces(p, cap.wi))
+        return;
+    if (2.0 * error > most) {
+        const double draw = (double)hash_uniform(hash_mix(sampler_bits(random, dimension)));
+        if (2.0 * error > most * (1.0 + draw))
+            return;
+    }
+    q->shade.is_area = false;
+    q->shade.wi = cap.wi;
+    q->shade.solid_angle_sr = cap.solid_angle_sr;
+    for (int c = 0; c < 3; ++c)
+        q->irradiance[c] = cap.irradiance[c];
 }
 
 /* False: the light does not reach the point, and nothing has to be asked for it. */
@@ -36,8 +67,13 @@ static bool gather_light(const world *w, const hit *h, const shade_point *p, con
     q->weight = 1.0F;
     q->shade.point = p;
     q->shade.is_area = is_round || light_is_area(l);
-    if (q->shade.is_area)
-        return area_light_reaches(w, h, p, l, &view, random, dimension, thorough, &q->shade.area, counts);
+    if (q->shade.is_area) {
+        if (!area_light_reaches(w, h, p, l, &view, random, dimension, thorough, &q->shade.area, counts))
+            return false;
+        if (w->cap_error > 0.0)
+            take_cap(w, h, p, random, dimension, l, q);
+        return true;
+    }
     if (!shade_faces(p, view.wi))
         return false;
     q->shade.wi = view.wi;

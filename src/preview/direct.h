@@ -16,6 +16,9 @@ typedef struct direct_facets {
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts);
 
+/* About how much a light with a shape would be off as a cap, and the cap: relative, infinite where it cannot be one. */
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap);
+
 /* ---- many points at once ---- */
 
 /* One that the camera sees. */
