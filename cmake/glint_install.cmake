@@ -5,6 +5,9 @@ install(TARGETS glint EXPORT libglint_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES src/glint.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET glint_image) # loaded by the command and by the two libraries below
+  install(TARGETS glint_image LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 if(TARGET glint_export)
   set_target_properties(glint_export PROPERTIES INSTALL_RPATH "$ORIGIN")
   install(TARGETS glint_export LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

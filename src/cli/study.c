@@ -77,7 +77,8 @@ static const argument_syntax syntax = {
 /* Studies that have been run, and the one that runs. */
 typedef struct study_series {
     study_outcome outcomes[STUDY_COUNT];
-    size_t count, asked;
+    size_t count;
+    double done, now, asked; /* shares of the time: of those before, of this one, of all that are asked for */
     progress bar;
     double start_s;
     const atomic_bool *interrupted;
@@ -92,7 +93,7 @@ static bool is_stopped(void *user)
 static void show_progress(double fraction, void *user)
 {
     study_series *const s = user;
-    const double done = ((double)s->count + fraction) / (double)s->asked, elapsed_s = clock_s() - s->start_s;
+    const double done = (s->done + fraction * s->now) / s->asked, elapsed_s = clock_s() - s->start_s;
     progress_update(done, elapsed_s, done > 0.0 ? elapsed_s * (1.0 / done - 1.0) : -1.0, &s->bar);
 }
 
@@ -125,14 +126,16 @@ static bool measure(const study_values *v, study_series *s, report *r)
         options.no_figures = true;
     }
     for (int i = 0; i < STUDY_COUNT; ++i)
-        s->asked += is_chosen(v, i);
+        s->asked += is_chosen(v, i) ? studies[i]->share : 0.0;
     s->bar = progress_begin(stderr);
     s->start_s = clock_s();
     bool done = true;
     for (int i = 0; i < STUDY_COUNT && done; ++i) {
         if (!is_chosen(v, i))
             continue;
+        s->now = studies[i]->share;
         done = study_do(studies[i], &options, &s->outcomes[s->count], r);
+        s->done += s->now;
         s->count++;
     }
     progress_end(&s->bar);
@@ -178,6 +181,7 @@ static document *document_of(const study_outcome *o)
     document_set_text(d, "name", o->study->name);
     document_set_text(d, "title", o->study->title);
     document_set_text(d, "truth", o->study->truth);
+    document_set_text(d, "choose", o->study->choose);
     document_set_number(d, "elapsed_s", o->elapsed_s);
     for (size_t i = 0; i < o->line_count; ++i) {
         if (!o->lines[i].is_check) {
@@ -220,6 +224,7 @@ static void print_lines(const study_values *v, const study_series *s)
     for (size_t i = 0; i < s->count; ++i) {
         const study_outcome *const o = &s->outcomes[i];
         printf("%s: %s, against %s\n", o->study->name, o->study->title, o->study->truth);
+        printf("  choose %s\n", o->study->choose);
         for (size_t k = 0; k < o->line_count; ++k)
             if (!o->lines[k].is_check || !o->lines[k].holds)
                 printf("  %s%s\n", o->lines[k].is_check ? "beyond its bound: " : "", o->lines[k].text);

@@ -49,10 +49,10 @@ void area_normal(const geometry &g, const uint32_t *corners, double out[3])
     }
 }
 
-// False when v has no direction.
+// False when v has no direction. It is made of floats: their squares, and those of products of two, are doubles.
 bool normalise(const double v[3], float *out)
 {
-    const double length = std::hypot(v[0], v[1], v[2]);
+    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (!(length > 0.0) || std::isinf(length))
         return false;
     for (size_t k = 0; k < 3; k++)

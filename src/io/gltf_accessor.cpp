@@ -98,6 +98,8 @@ std::vector<uint8_t> packed_elements(gltf_file &file, int index)
     element_view elements = { nullptr, 0 };
     if (accessor.bufferView >= 0)
         elements = elements_of(file, accessor.bufferView, accessor.byteOffset, size, accessor.count, true, pointer);
+    if (elements.data && elements.stride == size)
+        return std::vector<uint8_t>(elements.data, elements.data + accessor.count * size);
     std::vector<uint8_t> packed(accessor.count * size, 0);
     for (size_t i = 0; i < accessor.count && elements.data; i++)
         std::memcpy(&packed[i * size], elements.data + i * elements.stride, size);
@@ -149,6 +151,15 @@ template <class T> void convert(const std::vector<uint8_t> &packed, float diviso
         std::memcpy(&value, &packed[i * sizeof(T)], sizeof(T));
         // -128 / 127 and -32768 / 32767 lie below -1.
         out[i] = divisor > 1.0F ? std::max(static_cast<float>(value) / divisor, -1.0F) : static_cast<float>(value);
+    }
+}
+
+template <class T> void widen(const std::vector<uint8_t> &packed, std::vector<uint32_t> &out)
+{
+    for (size_t i = 0; i < out.size(); i++) {
+        T value;
+        std::memcpy(&value, &packed[i * sizeof(T)], sizeof(T));
+        out[i] = value;
     }
 }
 
@@ -226,7 +237,7 @@ std::vector<float> gltf_read_floats(gltf_file &file, int index)
         convert<uint32_t>(packed, divisor, out);
         break;
     default:
-        convert<float>(packed, divisor, out);
+        std::memcpy(out.data(), packed.data(), packed.size());
     }
     for (size_t i = 0; i < out.size(); i++)
         if (!std::isfinite(out[i]))
@@ -244,7 +255,11 @@ std::vector<uint32_t> gltf_read_integers(gltf_file &file, int index)
     substitute_sparse(file, index, packed);
     const int type = accessor_at(file, index).componentType;
     std::vector<uint32_t> out(packed.size() / component_size(type));
-    for (size_t i = 0; i < out.size(); i++)
-        out[i] = integer_at(&packed[i * component_size(type)], type);
+    if (component_size(type) == 1)
+        widen<uint8_t>(packed, out);
+    else if (component_size(type) == 2)
+        widen<uint16_t>(packed, out);
+    else
+        std::memcpy(out.data(), packed.data(), packed.size());
     return out;
 }

@@ -205,7 +205,7 @@ std::vector<uint32_t> read_corners(gltf_file &file, const tinygltf::Primitive &p
 }
 
 // glTF 2.0 section 3.7.2.1: strips (i, i + (1 + i % 2), i + (2 - i % 2)), fans (i + 1, i + 2, 0).
-std::vector<uint32_t> triangles_of(const std::vector<uint32_t> &corners, int mode)
+std::vector<uint32_t> triangles_of(std::vector<uint32_t> corners, int mode)
 {
     if (mode == TINYGLTF_MODE_TRIANGLES)
         return corners;
@@ -266,10 +266,10 @@ bool gltf_read_primitive(gltf_file &file, const tinygltf::Mesh &mesh, const tiny
     out.position = a.read("POSITION");
     std::optional<std::vector<uint32_t>> decoded = a.draco_indices();
     const int mode = decoded ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    const std::vector<uint32_t> corners =
+    std::vector<uint32_t> corners =
         decoded ? std::move(*decoded) : read_corners(file, primitive, a.vertex_count(), pointer);
     check_corner_count(corners.size(), mode, pointer);
-    out.index = triangles_of(corners, mode);
+    out.index = triangles_of(std::move(corners), mode);
     out.normal = a.read("NORMAL");
     out.tangent = a.read("TANGENT");
     out.texcoord[0] = a.read("TEXCOORD_0");

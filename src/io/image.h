@@ -1,4 +1,5 @@
-/* Pictures and texture lookups. OpenImageIO does the work; image_oiio.cpp is the only file that includes it. */
+/* Pictures and texture lookups. OpenImageIO reads and looks up, and is loaded when first needed (image_engine.h);
+ * libpng and OpenEXR write. */
 #ifndef IO_IMAGE_H
 #define IO_IMAGE_H
 

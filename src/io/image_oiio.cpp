@@ -1,4 +1,4 @@
-/* All that OpenImageIO does for us: image files in and out, decoded textures, filtered lookups. */
+/* All that OpenImageIO does for us: image files in, decoded textures, filtered lookups. */
 #include <cstring>
 #include <memory>
 #include <new>
@@ -10,11 +10,9 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
 
-#include "io/image.h"
 #include "io/image_bytes.h"
+#include "io/image_engine.h"
 #include "io/image_srgb.h"
-#include "io/mipmap.h"
-#include "io/output_file.h"
 #include "io/texture_transform.h"
 
 namespace
@@ -78,63 +76,6 @@ bool read_picture(const char *path, image *out, report *r)
     if (spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16)
         image_from_srgb(out, spec.alpha_channel);
     return true;
-}
-
-/* ---- pictures out ---- */
-
-/* Lets OpenImageIO write through an output_file, which keeps the first error. */
-class output_proxy : public OIIO::Filesystem::IOProxy
-{
-  public:
-    explicit output_proxy(output_file *file) : IOProxy("", Write), file_(file)
-    {
-    }
-    const char *proxytype() const override
-    {
-        return "output_file";
-    }
-    int64_t tell() override
-    {
-        return output_file_tell(file_);
-    }
-    bool seek(int64_t offset) override
-    {
-        return output_file_seek(file_, offset);
-    }
-    size_t write(const void *data, size_t byte_count) override
-    {
-        return output_file_write(file_, data, byte_count) ? byte_count : 0;
-    }
-
-  private:
-    output_file *file_;
-};
-
-/* Encodes in the named format. A failure of the disk is left to the commit, which knows the system's reason. */
-bool encode(const char *format, OIIO::ImageSpec spec, const OIIO::TypeDesc &type, const void *pixels, output_file *file,
-            const char *path, report *r)
-{
-    output_proxy proxy(file);
-    OIIO::Filesystem::IOProxy *pointer = &proxy;
-    const auto out = OIIO::ImageOutput::create(format);
-    if (!out)
-        return report_error(r, "%s: %s", path, one_line(OIIO::geterror()).c_str());
-    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &pointer);
-    if (!(out->open(path, spec) && out->write_image(type, pixels) && out->close()) && !output_file_failed(file))
-        return report_error(r, "%s: cannot be encoded: %s", path, one_line(out->geterror()).c_str());
-    return true;
-}
-
-bool write_picture(const char *format, const OIIO::ImageSpec &spec, const OIIO::TypeDesc &type, const void *pixels,
-                   const char *path, report *r)
-{
-    output_file *file = output_file_open(path, r);
-    if (!file)
-        return false;
-    if (guarded(path, r, [&] { return encode(format, spec, type, pixels, file, path, r); }))
-        return output_file_commit(file, r);
-    output_file_abort(file);
-    return false;
 }
 
 /* ---- textures ---- */
@@ -230,9 +171,21 @@ bool decode_texels(const image_bytes &bytes, const char *name, mipmap *out, repo
     return true;
 }
 
+bool decode(const scene_image *picture, mipmap *out, report *r)
+{
+    if (picture->texels)
+        return mipmap_copy(picture, out, r);
+    image_bytes bytes;
+    if (!image_bytes_load(picture, &bytes, r))
+        return false;
+    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
+    image_bytes_free(&bytes);
+    return decoded;
+}
+
 bool load_mipmap(const scene_image &picture, bool srgb, mipmap *out, report *r)
 {
-    if (!mipmap_decode(&picture, out, r))
+    if (!decode(&picture, out, r))
         return false;
     if (srgb && !mipmap_decode_srgb(out))
         return report_error(r, "%s: does not fit into memory", picture.name);
@@ -252,16 +205,16 @@ struct texture_source {
 
 } // namespace
 
-struct textures {
-    explicit textures(int image_count) : sources(2 * static_cast<size_t>(image_count))
+struct engine_textures {
+    explicit engine_textures(int image_count) : sources(2 * static_cast<size_t>(image_count))
     {
         cache = OIIO::ImageCache::create(false);
         system = OIIO::TextureSystem::create(false, cache);
         system->attribute("gray_to_rgb", 1);
     }
-    textures(const textures &) = delete;
-    textures &operator=(const textures &) = delete;
-    ~textures()
+    engine_textures(const engine_textures &) = delete;
+    engine_textures &operator=(const engine_textures &) = delete;
+    ~engine_textures()
     {
         /* TextureSystem::destroy of OpenImageIO 2.4 tells the allocator that the object is one byte long. glibc does
          * not listen; jemalloc, which Blender runs on, believes it and breaks its heap. */
@@ -310,19 +263,10 @@ struct textures {
     std::vector<texture_source> sources;
 };
 
-bool mipmap_decode(const scene_image *picture, mipmap *out, report *r)
+namespace
 {
-    if (picture->texels)
-        return mipmap_copy(picture, out, r);
-    image_bytes bytes;
-    if (!image_bytes_load(picture, &bytes, r))
-        return false;
-    const bool decoded = guarded(picture->name, r, [&] { return decode_texels(bytes, picture->name, out, r); });
-    image_bytes_free(&bytes);
-    return decoded;
-}
 
-bool image_read(const char *path, image *out, report *r)
+bool read(const char *path, image *out, report *r)
 {
     *out = image{};
     if (guarded(path, r, [&] { return read_picture(path, out, r); }))
@@ -331,49 +275,11 @@ bool image_read(const char *path, image *out, report *r)
     return false;
 }
 
-bool image_write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r)
-{
-    return image_check_names(i, path, r) && guarded(path, r, [&] {
-               OIIO::ImageSpec spec(i->width, i->height, i->channel_count, OIIO::TypeDesc::FLOAT);
-               spec.channelnames.assign(i->channel_names, i->channel_names + i->channel_count);
-               /* Empty unless the metadata ask for one: OpenImageIO would stamp the time, and the same picture differ
-                * by it. */
-               spec.attribute("DateTime", "");
-               for (size_t m = 0; m < metadata_count; m++)
-                   spec.attribute(metadata[m].key, metadata[m].value);
-               spec.attribute("compression", "zip");
-               return write_picture("openexr", spec, OIIO::TypeDesc::FLOAT, i->pixels, path, r);
-           });
-}
-
-bool image_write_png(const char *path, const image *i, float exposure_ev, report *r)
-{
-    return guarded(path, r, [&] {
-        const int channel_count = image_channel(i, "A") < 0 ? 3 : 4;
-        const size_t pixel_count = static_cast<size_t>(i->width) * static_cast<size_t>(i->height);
-        std::vector<uint8_t> bytes(pixel_count * static_cast<size_t>(channel_count));
-        if (!image_to_srgb(i, exposure_ev, bytes.data()))
-            return report_error(r, "%s: the picture has no channels R, G and B", path);
-        OIIO::ImageSpec spec(i->width, i->height, channel_count, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-        return write_picture("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path, r);
-    });
-}
-
-bool image_write_data_png(const char *path, int width, int height, int bits, const uint16_t *rgb, report *r)
-{
-    return guarded(path, r, [&] {
-        const OIIO::ImageSpec spec(width, height, 3, bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
-        return write_picture("png", spec, OIIO::TypeDesc::UINT16, rgb, path, r);
-    });
-}
-
-bool textures_open(const scene *s, textures **out, report *r)
+bool open_textures(const scene *s, engine_textures **out, report *r)
 {
     *out = nullptr;
     return guarded("textures", r, [&] {
-        auto opened = std::make_unique<textures>(s->image_count);
+        auto opened = std::make_unique<engine_textures>(s->image_count);
         for (int m = 0; m < s->material_count; m++) {
             const scene_texture *uses[SCENE_MATERIAL_TEXTURES];
             scene_material_textures(&s->materials[m], uses);
@@ -386,17 +292,15 @@ bool textures_open(const scene *s, textures **out, report *r)
     });
 }
 
-void textures_close(textures *t)
+void close_textures(engine_textures *t)
 {
     delete t;
 }
 
-void texture_lookup(const textures *t, const scene_texture *which, float s, float t_, float dsdx, float dtdx,
-                    float dsdy, float dtdy, float rgba[4])
+void lookup(const engine_textures *t, const scene_texture *which, float s, float t_, float dsdx, float dtdx, float dsdy,
+            float dtdy, float rgba[4])
 {
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1.0F;
-    if (which->image == SCENE_NONE)
-        return;
     const texture_point uv = { s, t_, dsdx, dtdx, dsdy, dtdy };
     const texture_point p = texture_transform(which, &uv);
     OIIO::TextureOpt options;
@@ -406,9 +310,18 @@ void texture_lookup(const textures *t, const scene_texture *which, float s, floa
     options.interpmode = which->nearest ? OIIO::TextureOpt::InterpClosest : OIIO::TextureOpt::InterpBilinear;
     options.fill = 1.0F; /* alpha, where the image has none */
     try {
-        t->system->texture(t->sources[textures::index(*which)].handle, t->system->get_perthread_info(), options, p.s,
-                           p.t, p.dsdx, p.dtdx, p.dsdy, p.dtdy, 4, rgba);
+        t->system->texture(t->sources[engine_textures::index(*which)].handle, t->system->get_perthread_info(), options,
+                           p.s, p.t, p.dsdx, p.dtdx, p.dsdy, p.dtdy, 4, rgba);
     } catch (const std::bad_alloc &) {
         /* A thread's first lookup finds no memory for its own part of the cache: white, as without a texture. */
     }
+}
+
+constexpr image_engine engine = { sizeof(image_engine), read, decode, open_textures, close_textures, lookup };
+
+} // namespace
+
+const image_engine *glint_image_engine(void)
+{
+    return &engine;
 }

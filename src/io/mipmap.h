@@ -35,7 +35,7 @@ typedef struct mipmap {
 /* Room for all levels; sizes beyond the limits are errors that name the image. The coding is MIPMAP_UNORM16. */
 bool mipmap_allocate(mipmap *out, int width, int height, int channel_count, const char *name, report *r);
 void mipmap_free(mipmap *m);
-/* Allocates and fills level 0 with a picture as its file (PNG, JPEG or WebP) or the scene stores it; in image_oiio.cpp.
+/* Allocates and fills level 0 with a picture as its file (PNG, JPEG or WebP) or the scene stores it; in image_engine.c.
  * On failure *out may hold memory, too. */
 bool mipmap_decode(const scene_image *picture, mipmap *out, report *r);
 

@@ -17,8 +17,8 @@ static const box empty_box = { { FLT_MAX, FLT_MAX, FLT_MAX }, { -FLT_MAX, -FLT_M
 static void extend(box *b, const float point[3])
 {
     for (int k = 0; k < 3; k++) {
-        b->low[k] = fminf(b->low[k], point[k]);
-        b->high[k] = fmaxf(b->high[k], point[k]);
+        b->low[k] = point[k] < b->low[k] ? point[k] : b->low[k];
+        b->high[k] = point[k] > b->high[k] ? point[k] : b->high[k];
     }
 }
 

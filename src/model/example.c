@@ -256,17 +256,15 @@ static example *make_seeds(struct glint_material *material)
         levels++;
     const example sized = { .size = o->size, .levels = levels };
     const size_t quads = (size_t)o->size * o->size / 4;
-    const size_t tiles = example_tiles_before(&sized, 0, levels);
-    example *e = allocate(material, sizeof(*e) + quads * sizeof(example_quad) + tiles * sizeof(tile_slopes));
+    const size_t tiles = example_tiles_before(&sized, EXAMPLE_LEAST_MAP_LEVEL, levels);
+    example *e = allocate(material, sizeof(*e) + quads * sizeof(example_quad) + tiles * sizeof(quarter_slopes));
     if (!e)
         return NULL;
     *e = sized;
     e->quads = (example_quad *)(e + 1);
-    e->slopes = (tile_slopes *)(e->quads + quads);
-    for (uint32_t level = 0; level < levels; level++) {
-        e->first_tile[level] = example_tiles_before(e, 0, level);
+    e->slopes = (quarter_slopes *)(e->quads + quads);
+    for (uint32_t level = 0; level < levels; level++)
         e->first_chain[level] = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, level);
-    }
     lattice_make(&e->lattice, o);
     e->is_flat = o->flat || !o->normals;
     example_seed(e, &material->options);

@@ -25,10 +25,11 @@ typedef struct example_quad {
     float jacobian[4][4]; /* xx, xy, yx, yy */
 } example_quad;
 
-/* Mean slopes of a tile's seeds, and the most that one of them spreads along each axis. */
-typedef struct tile_slopes {
-    float low[2], high[2], variance[2];
-} tile_slopes;
+/* Mean slopes of the seeds in each quarter of a tile, in the order of a quad, and the most that one of them spreads
+ * along each axis. */
+typedef struct quarter_slopes {
+    float low[2][4], high[2][4], variance[2][4];
+} quarter_slopes;
 
 /* E[max(w . s, -c)] over the slopes s of the whole surface, for directions w and cotangents c: see example_masking.c.
  */
@@ -44,11 +45,10 @@ typedef struct example_masking {
 typedef struct example {
     uint32_t size, levels;                     /* levels - 1 is the top: one tile */
     int is_flat;                               /* texels are flat facets */
-    uint32_t first_tile[EXAMPLE_MOST_LEVELS];  /* of each level, in slopes */
-    uint32_t first_chain[EXAMPLE_MOST_LEVELS]; /* of each level with maps, in the chains of tiles */
+    uint32_t first_chain[EXAMPLE_MOST_LEVELS]; /* of each level with maps, in the chains of tiles and in slopes */
     float slope_variance;                      /* sigma_r^2 and the facets' own roughness */
     example_quad *quads;                       /* size^2 / 4 */
-    tile_slopes *slopes;                       /* of the tiles of every level */
+    quarter_slopes *slopes;                    /* of the tiles that have maps */
     slope_maps tiles;                          /* chains, level by level */
     slope_maps overall;                        /* one chain: the whole surface */
     float *row_sums;                           /* of the first map of overall */

@@ -132,9 +132,9 @@ static slope_range tile_range(const example *e, uint32_t level, uint32_t tx, uin
     return range;
 }
 
-static tile_slopes slopes_of_tile(const example *e, uint32_t level, uint32_t tx, uint32_t ty)
+static void quarter(const example *e, uint32_t level, uint32_t tx, uint32_t ty, quarter_slopes *of_parent)
 {
-    const uint32_t side = 2U << level;
+    const uint32_t side = 2U << level, q = (tx & 1U) + 2U * (ty & 1U);
     slope_range range = EMPTY;
     covariance2 most = { 0.0F, 0.0F, 0.0F };
     for (uint32_t y = ty * side; y < (ty + 1) * side; y++)
@@ -145,7 +145,12 @@ static tile_slopes slopes_of_tile(const example *e, uint32_t level, uint32_t tx,
             most.xx = c.xx > most.xx ? c.xx : most.xx;
             most.yy = c.yy > most.yy ? c.yy : most.yy;
         }
-    return (tile_slopes){ { range.low[0], range.low[1] }, { range.high[0], range.high[1] }, { most.xx, most.yy } };
+    for (int k = 0; k < 2; k++) {
+        of_parent->low[k][q] = range.low[k];
+        of_parent->high[k][q] = range.high[k];
+    }
+    of_parent->variance[0][q] = most.xx;
+    of_parent->variance[1][q] = most.yy;
 }
 
 static float width(const slope_range *r)
@@ -177,11 +182,11 @@ void example_seed(example *e, const glint_material_options *o)
     const float sigma_r = intrinsic_roughness(e, o);
     /* A Beckmann lobe of roughness alpha has slopes of variance alpha^2 / 2. */
     e->slope_variance = sigma_r * sigma_r + 0.5F * o->facet_alpha * o->facet_alpha;
-    tile_slopes *tile = e->slopes;
-    for (uint32_t level = 0; level < e->levels; level++)
+    for (uint32_t level = 0; level + 1 < e->levels; level++)
         for (uint32_t y = 0; y < example_tiles_along(e, level); y++)
             for (uint32_t x = 0; x < example_tiles_along(e, level); x++)
-                *tile++ = slopes_of_tile(e, level, x, y);
+                quarter(e, level, x, y,
+                        &e->slopes[e->first_chain[level + 1] + example_tile(e, level + 1, x / 2, y / 2)]);
 }
 
 /* ---- the whole surface ---- */

@@ -10,11 +10,10 @@
 
 #define GLINT_LANES 1
 #include "math/elementary.h"
-#include "model/example_view.h"
+#include "model/example_tile.h"
 
-/* Most that the Gaussian may vary across a tile that is taken whole, in units of its peak, and most of its mass that
- * such a tile may hold where another example covers a part of it (fit: see tests/unit/test_example_truth.c). */
-#define MOST_VARIATION 0.5F
+/* Most of the Gaussian's mass that a tile may hold that is taken whole where another example covers a part of it (fit:
+ * see tests/unit/test_example_truth.c). */
 #define MOST_SHARED_MASS 0.03F
 
 /* Footprints narrower than this many texels see the ripple of the seeds, whose sum is not quite flat: their mass is
@@ -23,42 +22,19 @@
 #define RIPPLE_SIGMA 0.5F
 #define SEAM_SIGMA 2.0F
 
-/* Tiles that will be divided are looked up in their maps from this level on (cost). */
-#define LEAST_TRIED_LEVEL 2
-
 /* So many quads are looked at one by one rather than by their tiles (cost). */
 #define FEW_QUADS 100
 
 /* A tile of the example. */
 typedef struct node {
     uint16_t x, y;
-    int level;
+    uint16_t level;
+    uint16_t is_dark; /* none of its seeds can have the slope */
     rivals rivals;
 } node;
 
 /* Four children for each level that is entered, and the tiles that the descent starts with. */
 enum { STACK = 3 * EXAMPLE_MOST_LEVELS + 9 };
-
-/* Whether no seed of a tile can have the slope. Place and slope of a seed are one Gaussian: wherever in it the
- * footprint lies, its exponent is at least that of the slope alone, with its spread over all of the seed. */
-static int is_dark(const example_view *v, int level, uint32_t x, uint32_t y)
-{
-    const tile_slopes *t = &v->e->slopes[v->e->first_tile[level] + example_tile(v->e, (uint32_t)level, x, y)];
-    for (int k = 0; k < 2; k++) {
-        const float below = t->low[k] - v->slope[k], above = v->slope[k] - t->high[k];
-        const float away = below > above ? below : above;
-        if (away > 0.0F && away * away > SLOPE_REACH * SLOPE_REACH * (t->variance[k] + v->slope_variance))
-            return 1;
-    }
-    return 0;
-}
-
-/* Density of the mean of a tile's seeds: Eq. 7. */
-static float tile_density(const example_view *v, const node *n)
-{
-    const uint32_t chain = v->e->first_chain[n->level] + example_tile(v->e, (uint32_t)n->level, n->x, n->y);
-    return slope_maps_blended(&v->e->tiles, chain, &v->blend, v->slope[0], v->slope[1]);
-}
 
 static void to_frame(const example_view *v, float x, float y, float frame[2])
 {
@@ -85,14 +61,6 @@ static float share_of(uint32_t quarters)
     return 0.25F * (float)((quarters & 1U) + (quarters >> 1 & 1U) + (quarters >> 2 & 1U) + (quarters >> 3));
 }
 
-/* How much the Gaussian varies across a tile by its curvature alone. */
-static float curve_of(const example_view *v, int level)
-{
-    const float half = (float)(1 << level) * v->texel;
-    const covariance2 *p = &v->precision;
-    return 0.5F * half * half * (p->xx + 2.0F * fabsf(p->xy) + p->yy);
-}
-
 /* Leaves out the rivals of a disc that holds the tile. False: one of them owns all of it. */
 static int narrow_rivals(const example_view *v, node *n, float x, float y, float side)
 {
@@ -106,9 +74,7 @@ static int narrow_rivals(const example_view *v, node *n, float x, float y, float
 /* Takes a tile, skips it, or says that its quarters are to be looked at. */
 static int is_divided(const example_view *v, node *n, gathered *sum)
 {
-    const int dark = !v->wants_value || is_dark(v, n->level, n->x, n->y);
-    if (dark && !v->wants_mass)
-        return 0;
+    const int dark = n->is_dark;
     const float side = (float)(2 << n->level) * v->texel, half = 0.5F * side;
     const float x = ((float)n->x + 0.5F) * side, y = ((float)n->y + 0.5F) * side;
     const float dx = v->mean[0] - x, dy = v->mean[1] - y;
@@ -126,10 +92,10 @@ static int is_divided(const example_view *v, node *n, gathered *sum)
     const float nearest = exponent > change ? exponent - change : 0.0F;
     const float rarity = 1.0F + nearest + 0.5F * nearest * nearest; /* below exp(nearest) */
     /* Of a tile's facets only those that are lit show their tints: which ones, the map does not say. */
-    const int divided = example_tints_texels(v) || change + curve_of(v, n->level) > MOST_VARIATION * rarity ||
+    const int divided = example_tints_texels(v) || change + tile_curve(v, n->level) > MOST_VARIATION * rarity ||
                         (n->rivals && v->norm * side * side > MOST_SHARED_MASS * rarity);
-    /* A large tile's map knows better than the range of its slopes whether there is anything to look for. */
-    const float density = !dark && (!divided || n->level >= LEAST_TRIED_LEVEL) ? tile_density(v, n) : 0.0F;
+    const float density =
+        !dark && (!divided || n->level >= LEAST_TRIED_LEVEL) ? tile_density(v, n->level, n->x, n->y) : 0.0F;
     if (divided)
         return density > 0.0F || v->wants_mass || n->level < LEAST_TRIED_LEVEL;
     if (!(density > 0.0F) && !v->wants_mass)
@@ -155,27 +121,45 @@ static int tiles_within(const example_view *v, int level, int axis, int *first, 
     return 1;
 }
 
+/* Quarters of a tile that are worth a look for their slopes. */
+static uint32_t lit_quarters(const example_view *v, int level, uint32_t x, uint32_t y)
+{
+    return v->wants_value ? example_lit_quarters(v, level, x, y) : 0U;
+}
+
+static int is_top(const example_view *v, int level)
+{
+    return level + 1 == (int)v->e->levels;
+}
+
 /* Begins with the smallest tiles of which two a side hold all that the footprint reaches. */
 static int first_nodes(const example_view *v, rivals all, node *stack)
 {
     const float reach = 2.0F * (v->half[0] > v->half[1] ? v->half[0] : v->half[1]);
     int level = 0;
-    while (level + 1 < (int)v->e->levels && (float)(2 << level) * v->texel < reach)
+    while (!is_top(v, level) && (float)(2 << level) * v->texel < reach)
         level++;
     int x0, x1, y0, y1, height = 0;
     if (!tiles_within(v, level, 0, &x0, &x1) || !tiles_within(v, level, 1, &y0, &y1))
         return 0;
     for (int y = y0; y <= y1; y++)
-        for (int x = x0; x <= x1; x++)
-            stack[height++] = (node){ (uint16_t)x, (uint16_t)y, level, all };
+        for (int x = x0; x <= x1; x++) {
+            const uint32_t quarter = ((uint32_t)x & 1U) + 2U * ((uint32_t)y & 1U);
+            const uint32_t lit = is_top(v, level)
+                                     ? 15U * (uint32_t)v->wants_value
+                                     : lit_quarters(v, level + 1, (uint32_t)x / 2U, (uint32_t)y / 2U) >> quarter & 1U;
+            stack[height++] = (node){ (uint16_t)x, (uint16_t)y, (uint16_t)level, lit == 0, all };
+        }
     return height;
 }
 
-static void take_quad(const example_view *v, uint32_t x, uint32_t y, gathered *sum)
+/* Those quads of a tile of four whose bits are set. */
+static void take_quads(const example_view *v, uint32_t x, uint32_t y, uint32_t asked, gathered *sum)
 {
-    const int dark = is_dark(v, 0, x, y);
-    if (!dark || v->wants_mass)
-        example_take_quad(v, x, y, 15U, dark, sum);
+    const uint32_t lit = example_lit_quarters(v, 1, x, y);
+    for (uint32_t k = 0; k < 4; k++)
+        if (asked >> k & (v->wants_mass ? 1U : lit >> k & 1U))
+            example_take_quad(v, 2U * x + (k & 1U), 2U * y + (k >> 1), 15U, !(lit >> k & 1U), sum);
 }
 
 /* All quads within reach, one by one, where no larger tile at the centre could be taken whole and they are few. */
@@ -184,15 +168,18 @@ static int take_few(const example_view *v, gathered *sum)
     int x0, x1, y0, y1;
     if (!tiles_within(v, 0, 0, &x0, &x1) || !tiles_within(v, 0, 1, &y0, &y1))
         return 1;
-    if (!(curve_of(v, EXAMPLE_LEAST_MAP_LEVEL) > MOST_VARIATION) || (x1 - x0 + 1) * (y1 - y0 + 1) > FEW_QUADS)
+    if (!(tile_curve(v, EXAMPLE_LEAST_MAP_LEVEL) > MOST_VARIATION) || (x1 - x0 + 1) * (y1 - y0 + 1) > FEW_QUADS)
         return 0;
-    for (int y = y0; y <= y1; y++)
-        for (int x = x0; x <= x1; x++)
-            take_quad(v, (uint32_t)x, (uint32_t)y, sum);
+    for (int y = y0 / 2; y <= y1 / 2; y++)
+        for (int x = x0 / 2; x <= x1 / 2; x++) {
+            const uint32_t columns = (2 * x >= x0 ? 5U : 0U) | (2 * x < x1 ? 10U : 0U);
+            const uint32_t rows = (2 * y >= y0 ? 3U : 0U) | (2 * y < y1 ? 12U : 0U);
+            take_quads(v, (uint32_t)x, (uint32_t)y, columns & rows, sum);
+        }
     return 1;
 }
 
-static void descend(const example_view *v, rivals all, gathered *sum)
+void example_descend(const example_view *v, rivals all, gathered *sum)
 {
     if (!all && v->wants_value && take_few(v, sum))
         return;
@@ -203,31 +190,20 @@ static void descend(const example_view *v, rivals all, gathered *sum)
         if (!is_divided(v, &n, sum))
             continue;
         if (n.level == 1 && !n.rivals && v->wants_value) {
-            for (uint32_t k = 0; k < 4; k++)
-                take_quad(v, 2U * n.x + (k & 1U), 2U * n.y + (k >> 1), sum);
+            take_quads(v, n.x, n.y, 15U, sum);
             continue;
         }
-        for (int k = 0; k < 4; k++)
-            stack[height++] =
-                (node){ (uint16_t)(2 * n.x + (k & 1)), (uint16_t)(2 * n.y + (k >> 1)), n.level - 1, n.rivals };
+        const uint32_t lit = lit_quarters(v, n.level, n.x, n.y);
+        for (uint32_t k = 0; k < 4; k++)
+            if (v->wants_mass || lit >> k & 1U)
+                stack[height++] = (node){ (uint16_t)(2U * n.x + (k & 1U)), (uint16_t)(2U * n.y + (k >> 1)),
+                                          (uint16_t)(n.level - 1U), !(lit >> k & 1U), n.rivals };
     }
 }
 
 /* ---- what lies under the footprint ---- */
 
-/* One question about one footprint. */
-typedef struct question {
-    const example *e;
-    const example_footprint *f;
-    const float *slope;
-    float light_variance;
-    uint32_t seed;
-    extent reach;
-    const tint_palette *palette;
-} question;
-
-/* The footprint and the slope as one example sees them. */
-static example_view view_of(const question *q, const instance *self)
+example_view example_view_of(const question *q, const instance *self)
 {
     const example *e = q->e;
     example_view v = { .e = e, .self = self, .owner = self, .wants_value = 1, .texel = 1.0F / (float)e->size };
@@ -246,6 +222,7 @@ static example_view view_of(const question *q, const instance *self)
     const float inverse = 1.0F / (det > least ? det : least);
     v.precision = (covariance2){ c.yy * inverse, -c.xy * inverse, c.xx * inverse };
     v.norm = sqrtf(inverse) / (2.0F * MATH_PI);
+    v.quad_curve = 0.5F * v.texel * v.texel * (v.precision.xx + 2.0F * fabsf(v.precision.xy) + v.precision.yy);
     /* S_h - S_h (S_P + S_h)^-1 S_h */
     v.posterior =
         (covariance2){ h * (1.0F - h * v.precision.xx), -h * h * v.precision.xy, h * (1.0F - h * v.precision.yy) };
@@ -272,21 +249,6 @@ static extent extent_of(const example *e, const example_footprint *f)
                      SLOPE_REACH * sqrtf(major2 + seed) };
 }
 
-/* Tiled examples: one in every square. */
-static void gather_tiled(const question *q, int wants_mass, gathered *sum)
-{
-    const extent *r = &q->reach;
-    const int left = (int)floor_f(r->at[0] - r->half[0]), right = (int)floor_f(r->at[0] + r->half[0]);
-    const int low = (int)floor_f(r->at[1] - r->half[1]), high = (int)floor_f(r->at[1] + r->half[1]);
-    for (int j = low; j <= high; j++)
-        for (int i = left; i <= right; i++) {
-            const instance n = lattice_instance(&q->e->lattice, q->f->cell[0], q->f->cell[1], i, j, q->seed);
-            example_view v = view_of(q, &n);
-            v.wants_mass = wants_mass;
-            descend(&v, 0, sum);
-        }
-}
-
 /* What scattered examples leave free of the ground: its mass, square by square. */
 static float ground_mass(const question *q, const neighbours *others, rivals all)
 {
@@ -298,13 +260,13 @@ static float ground_mass(const question *q, const neighbours *others, rivals all
         for (int i = left; i <= right; i++) {
             const matrix2 unit = { 1.0F, 0.0F, 0.0F, 1.0F };
             const instance n = { (float)i + 0.5F, (float)j + 0.5F, { unit, unit, 0.70710678F, { 1.0F, 1.0F } } };
-            example_view v = view_of(q, &n);
+            example_view v = example_view_of(q, &n);
             v.owner = NULL;
             v.palette = NULL;
             v.others = others;
             v.wants_value = 0;
             v.wants_mass = 1;
-            descend(&v, all, &sum);
+            example_descend(&v, all, &sum);
         }
     return sum.mass;
 }
@@ -344,10 +306,10 @@ static int gather_scattered(const question *q, int is_narrow, int sees_ripple, g
             sum->value += mass * flat;
             continue;
         }
-        example_view v = view_of(q, &list.at[shown[k]]);
+        example_view v = example_view_of(q, &list.at[shown[k]]);
         v.others = &list;
         v.wants_mass = wants_mass;
-        descend(&v, seen[k], sum);
+        example_descend(&v, seen[k], sum);
     }
     return wants_mass;
 }
@@ -364,7 +326,7 @@ static gathered gather(const question *q)
     if (q->e->lattice.is_scattered)
         wants_mass = gather_scattered(q, minor2 < seam * seam, wants_mass, &sum);
     else
-        gather_tiled(q, wants_mass, &sum);
+        example_gather_tiled(q, wants_mass, &sum);
     /* What lies beyond the reach looks like the rest: 1 - exp(-3.5^2 / 2). */
     const float mass = wants_mass ? sum.mass : 0.99781F;
     sum.value = mass > 0.0F ? sum.value / mass : 0.0F;

@@ -78,6 +78,7 @@ void lattice_make(lattice *l, const glint_example *o)
     const float sigma_h = o->sigma_h / (float)o->size;
     l->is_scattered = o->placement == GLINT_EXAMPLE_SCATTERED;
     l->is_alike = !l->is_scattered && !o->mirror;
+    l->kinds = l->is_scattered ? LATTICE_VARIANTS : o->mirror ? LATTICE_MIRRORED : 1;
     l->jitter = l->is_scattered ? o->jitter : 0.0F;
     l->seed_variance = sigma_h * sigma_h;
     l->from_lattice = l->is_scattered ? unit : own;

@@ -57,9 +57,13 @@ typedef struct variant {
 /* Enough that neighbours seldom look alike; 11 KiB, which stay in the cache (cost). */
 enum { LATTICE_VARIANTS = 256 };
 
+/* Those of tiled examples that are mirrored: along neither axis, one, the other, both. */
+enum { LATTICE_MIRRORED = 4 };
+
 typedef struct lattice {
     int is_scattered;
     int is_alike;         /* every square holds the same */
+    uint32_t kinds;       /* variants that differ; the others repeat them in turn */
     float jitter;         /* see glint_example */
     float seed_variance;  /* sigma_h^2, example units */
     matrix2 from_lattice; /* to the surface: M of tiled examples, the unit matrix of scattered ones */

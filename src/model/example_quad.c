@@ -1,8 +1,23 @@
-/* Four seeds at a time: Eq. 6 of Xing et al. 2024. The integral of footprint times seed is a Gaussian in the slope,
- * moved to where in the seed the footprint lies. */
+/* Four seeds at a time, or four tiles: Eq. 6 of Xing et al. 2024. The integral of footprint times seed is a Gaussian in
+ * the slope, moved to where in the seed the footprint lies. */
 #define GLINT_LANES 4
 #include "math/elementary.h"
 #include "model/example_view.h"
+
+/* Place and slope of a seed are one Gaussian: wherever in it the footprint lies, its exponent is at least that of the
+ * slope alone, with its spread over all of the seed. */
+uint32_t example_lit_quarters(const example_view *v, int level, uint32_t x, uint32_t y)
+{
+    const quarter_slopes *q = &v->e->slopes[v->e->first_chain[level] + example_tile(v->e, (uint32_t)level, x, y)];
+    vmask dark = { 0, 0, 0, 0 };
+    for (int k = 0; k < 2; k++) {
+        const vfloat away = max_f(load_f(q->low[k]) - v->slope[k], v->slope[k] - load_f(q->high[k]));
+        const vfloat reach2 = SLOPE_REACH * SLOPE_REACH * (load_f(q->variance[k]) + v->slope_variance);
+        dark |= less(splat(0.0F), away) & less(reach2, away * away);
+    }
+    const vuint lit = (vuint)~dark & (vuint){ 1U, 2U, 4U, 8U };
+    return (lit[0] | lit[1]) | (lit[2] | lit[3]);
+}
 
 static float sum_of(vfloat x)
 {

@@ -1,5 +1,5 @@
-/* What lies under one footprint: the example in its own coordinates, who else covers it, and its seeds by fours. Shared
- * by example_density.c, example_cover.c and example_quad.c. */
+/* What lies under one footprint: the example in its own coordinates, who else covers it, its tiles and its seeds by
+ * fours. Shared by example_density.c, example_tiled.c, example_kernel.c, example_cover.c and example_quad.c. */
 #ifndef MODEL_EXAMPLE_VIEW_H
 #define MODEL_EXAMPLE_VIEW_H
 
@@ -50,6 +50,7 @@ typedef struct example_view {
     float half[2];               /* and how far it reaches, seed and all */
     covariance2 precision;       /* inverse of footprint and seed together */
     float norm;                  /* 1 / (2 pi sqrt(det)) of it */
+    float quad_curve;            /* how much the footprint varies across a quad by its curvature alone */
     covariance2 posterior;       /* of the place within a seed, given the footprint */
     float slope[2];              /* what is asked for */
     float slope_variance;        /* of the surface and the light */
@@ -64,6 +65,26 @@ typedef struct gathered {
     float tint[3]; /* what tints add to value */
 } gathered;
 
+/* One question about one footprint. */
+typedef struct question {
+    const example *e;
+    const example_footprint *f;
+    const float *slope;
+    float light_variance;
+    uint32_t seed;
+    extent reach;
+    const tint_palette *palette;
+} question;
+
+/* The footprint and the slope as one example sees them. */
+example_view example_view_of(const question *q, const instance *self);
+
+/* Adds what one example shows. */
+void example_descend(const example_view *v, rivals all, gathered *sum);
+
+/* Adds what examples show that lie side by side, one in every square of the lattice. */
+void example_gather_tiled(const question *q, int wants_mass, gathered *sum);
+
 /* Flat texels are facets with a tint each. Where normals vary between texels there are no facets, and the tint is the
  * whole example's. */
 static inline int example_tints_texels(const example_view *v)
@@ -76,6 +97,9 @@ uint32_t example_tint_seed(const example_footprint *f, const instance *self, uin
 
 /* Adds the tint of a texel, row by row, of what it adds to value. */
 void example_add_tint(const example_view *v, uint32_t texel, float value, gathered *sum);
+
+/* The quarters of a tile that may have seeds with the slope, a bit each. */
+uint32_t example_lit_quarters(const example_view *v, int level, uint32_t x, uint32_t y);
 
 /* Adds the seeds of a quad whose bits are set in owned: Eq. 6. is_dark: their slopes are known to be out of reach. */
 void example_take_quad(const example_view *v, uint32_t x, uint32_t y, uint32_t owned, int is_dark, gathered *sum);

@@ -49,18 +49,14 @@ static void add_seen_sky(const world *w, vec3 direction, float share, pixel_samp
     add_layer(out, &sky, share);
 }
 
-int preview_footprint_side(int spp)
+void world_take_samples(world *w, int spp, int model)
 {
     int side = 1;
     while (4 * side * side <= spp)
         side *= 2;
-    return side;
-}
-
-int preview_glint_side(const preview_options *o)
-{
-    const int side = preview_footprint_side(o->spp);
-    return o->model == GLINT_MODEL_EXPLICIT || side < MOST_GLINT_SIDE ? side : MOST_GLINT_SIDE;
+    w->spp = spp;
+    w->footprint_side = side;
+    w->glint_side = model == GLINT_MODEL_EXPLICIT || side < MOST_GLINT_SIDE ? side : MOST_GLINT_SIDE;
 }
 
 /* The ray goes through any point of its stratum, the footprint is the stratum itself, or the tile that it lies in.

@@ -235,6 +235,8 @@ const study arithmetic_study = {
     .name = "arithmetic",
     .title = "Arithmetic: float and double, exact bits and fused",
     .truth = "textbook formulas in long double; and the count in one lane",
+    .choose = "float, and the same bits everywhere.",
+    .share = 0.04,
     .run = measure,
     .figures = figures,
 };

@@ -7,12 +7,16 @@ set xlabel '--accuracy'
 set bmargin at screen 0.16
 set ylabel 'left out, root mean square over the mean'
 set key top left Left reverse
+set format y '%g'
+set ytics add ('nothing' 1e-5)
 least(e) = e > 1e-5 ? e : 1e-5
 plot [0.0015:0.3] [1e-5:0.5] x with lines linetype 7 dashtype 2 title 'the budget', \
     for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
     sprintf('< grep "^%s,0\\.[0-9]" images_accuracy.csv', name) using 2:(least($4)):5 with yerrorlines linetype k title name
 unset logscale y
-set label 1 "Choose .02 or more but for references: lights with a shape then cost an eighth to a half; below the line a budget holds." \
+unset ytics
+set ytics nomirror textcolor rgb "#333333"
+set label 1 "Choose .02 or more but for references: lights with a shape then cost a fraction; below the line a budget holds." \
     at screen 0.5, screen 0.03 center font ',10'
 set ylabel 'time over that without a budget'
 set format y '%g'

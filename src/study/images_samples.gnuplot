@@ -7,5 +7,6 @@ set xlabel "seconds of one core\n{/*0.85 Choose 16 samples for a look, 64 for a 
 set ylabel 'root mean square error over the mean'
 set key bottom left Left reverse
 set bars 0.6
-plot for [name in 'near-sparse far-dense area-lit layered'] \
-    sprintf('< grep "^%s," images_samples.csv', name) using 3:4:5 with yerrorlines title name
+low(e, b) = e - b > e / 10 ? e - b : e / 10
+plot [] [1e-4:20] for [name in 'near-sparse far-dense area-lit layered'] \
+    sprintf('< grep "^%s," images_samples.csv', name) using 3:4:(low($4, $5)):($4 + $5) with yerrorlines title name

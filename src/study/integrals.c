@@ -222,6 +222,8 @@ const study integrals_study = {
     .name = "integrals",
     .title = "Lights of real size: ways to integrate",
     .truth = "brute force on a fine grid of the light, in double, written without the library",
+    .choose = "the fast integral; the exact one for references and anisotropic roughness.",
+    .share = 0.08,
     .run = measure,
     .figures = figures,
 };

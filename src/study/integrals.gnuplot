@@ -8,7 +8,8 @@ set key bottom left Left reverse
 set bars 0.6
 low(e, b) = e - b > e / 10 ? e - b : e / 10
 few(n) = strstrt(n, 'random') ? n : ''
-else(n) = strstrt(n, 'random') ? '' : n
+near(n) = n eq 'grid 2 x 2' ? n : ''
+else(n) = strstrt(n, 'random') || n eq 'grid 2 x 2' ? '' : n
 plot [60:1e5] [1e-8:100] \
     '< grep ",1$" integrals_front.csv' using 2:3 with lines linetype 1 linewidth 1 dashtype 2 notitle, \
     '< grep ",1$" integrals_worst_front.csv' using 2:3 with lines linetype 2 linewidth 1 dashtype 2 notitle, \
@@ -16,5 +17,7 @@ plot [60:1e5] [1e-8:100] \
     'integrals_worst_front.csv' every ::1 using 2:3:(low($3, $4)):($3 + $4) with yerrorbars linetype 2 title '95 % of the lights', \
     for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(else(stringcolumn(1))) \
         with labels left offset 0.8,-0.5 font ',9' notitle, \
+    for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(near(stringcolumn(1))) \
+        with labels right offset -0.8,-0.5 font ',9' notitle, \
     'integrals_worst_front.csv' every ::1 using 2:3:(few(stringcolumn(1))) \
         with labels left offset 0.8,0.9 font ',9' textcolor rgb '#777777' notitle

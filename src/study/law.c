@@ -35,6 +35,7 @@ enum { TRIALS = sizeof trials_of / sizeof trials_of[0], CHANCES = sizeof chances
 /* Over all (N, p). */
 typedef struct law_error {
     double worst_mean, worst_ks, bar; /* standard deviation of the mean where it is worst */
+    double ks_bar;
     double square;
     int cases;
 } law_error;
@@ -130,6 +131,7 @@ static void measure_case(study_run *run, int which, float trials, float p, int g
     worst->square += error * error;
     worst->cases++;
     worst->worst_ks = fmax(worst->worst_ks, ks);
+    worst->ks_bar = which == EXACT ? 0.5 / sqrt(count) : 6.0 / count;
     if (error > worst->worst_mean) {
         worst->worst_mean = error;
         worst->bar = bar;
@@ -146,8 +148,8 @@ static void measure_errors(study_run *run, law_error worst[SAMPLERS])
         return;
     }
     study_table(run, "law.csv", "sampler,trials,p,mean,variance,mean_bar,ks,draws");
-    for (int k = 0; k < SAMPLERS && study_goes_on(run, 0.7 * k / SAMPLERS); k++)
-        for (int i = 0; i < TRIALS; i++)
+    for (int k = 0; k < SAMPLERS; k++)
+        for (int i = 0; i < TRIALS && study_goes_on(run, 0.7 * (k + (double)i / TRIALS) / SAMPLERS); i++)
             for (int j = 0; j < CHANCES; j++)
                 if (trials_of[i] * chances[j] >= 0.1F)
                     measure_case(run, k, trials_of[i], chances[j], groups, draws, &worst[k]);
@@ -211,16 +213,14 @@ static void measure(study_run *run)
     study_setting mean[SAMPLERS], whole[SAMPLERS];
     for (int k = 0; k < SAMPLERS; k++) {
         mean[k] = (study_setting){ samplers[k].name, cost[k], worst[k].worst_mean, worst[k].bar, false };
-        whole[k] = (study_setting){ samplers[k].name, cost[k], worst[k].worst_ks, 0.5 / sqrt(12.0 * 4096.0), false };
+        whole[k] = (study_setting){ samplers[k].name, cost[k], worst[k].worst_ks, worst[k].ks_bar, false };
     }
-    static const study_dial means = {
-        "law_front.csv",
-        "The mean of a count.",
-        "ns a draw, twelve sharing one (N, p), one lane",
-        "cost_ns",
-        "worst error of the mean, over its value",
-        "Take libglint's own threshold of 8: the mean is as near as with twice the walk."
-    };
+    static const study_dial means = { "law_front.csv",
+                                      "The mean of a count; twelve draws share (N, p), one lane.",
+                                      "ns a draw",
+                                      "cost_ns",
+                                      "worst error of the mean, over its value",
+                                      "Take the walk to 5: the mean is as near as with three times the walk." };
     static const study_dial laws = {
         "law_ks_front.csv",
         "The whole law of a count.",
@@ -259,6 +259,8 @@ const study law_study = {
     .name = "law",
     .title = "The binomial law",
     .truth = "the law itself, term by term in double",
+    .choose = "libglint's own draw, which walks to a mean of 5: cheaper than the published ones, and right.",
+    .share = 0.04,
     .run = measure,
     .figures = figures,
 };

@@ -34,8 +34,10 @@ extern const study lights_study;
 
 const study lights_study = {
     .name = "lights",
-    .title = "Lights of real size",
+    .title = "Lights of real size: where the fast integral is off",
     .truth = "the boundary integral, which is held against brute force, and the binomial law",
+    .choose = "the fast integral for pictures; the exact one where all of a light must add up to a few thousandths.",
+    .share = 0.01,
     .run = measure,
     .figures = figures,
 };

@@ -1,22 +1,48 @@
-set title 'Fast integral over lights of real size: error of the radiance'
+lights = int(system("grep -c '^GGX\\|^Beckmann' lights_error.csv"))
+set multiplot title sprintf("Fast integral over lights of real size: error of the radiance\n{/*0.8 truth: the exact integral; %d random lights of five shapes; no bars, each light is one exact number}", lights)
+set label 1 "Choose the fast integral for pictures; the exact one (--accuracy 0) where a light of more than 2.5 sr is seen from 60° or more." \
+    at screen 0.5, screen 0.03 center font ',10'
 set logscale xcb
 set xlabel 'radiance factor of the light'
 set ylabel 'roughness √α'
 set cblabel 'error over the exact integral'
-set palette defined (0 '#EEEEEE', 1 '#56B4E9', 2 '#0072B2', 3 '#E69F00', 4 '#D55E00')
+# Darker is worse, in grey too.
+set palette defined (0 '#E4E4E4', 1 '#F7C46C', 2 '#E8682F', 3 '#9B2964', 4 '#1B0C41')
 set cbrange [1e-4:1]
 set format x '10^{%L}'
 set format cb '10^{%L}'
-set key outside top right horizontal
+set key at screen 0.35, screen 0.885 center horizontal Left reverse
 worse(x) = abs(x) < 1e-4 ? 1e-4 : abs(x)
 of(name) = stringcolumn(1) eq name ? column(5) : NaN
 # Few are worse than a tenth: they lie on top, and the worst say from where they are seen and how large they are.
 bad(name) = abs(column(6)) > 0.1 ? of(name) : NaN
 worst(error) = abs(error) > 0.25 ? column(5) : NaN
+set style textbox opaque noborder margins 0.3, 0.2
 told(view, size) = sprintf('%.0f°, %.2g sr', view, size)
+set lmargin at screen 0.08
+set rmargin at screen 0.53
+set bmargin at screen 0.16
+set tmargin at screen 0.86
 plot [1e-6:1] [0.1:1] \
-    'lights_error.csv' using (of('GGX')):2:(worse($6)) with points pointtype 7 pointsize 0.35 linecolor palette title 'GGX', \
-    'lights_error.csv' using (of('Beckmann')):2:(worse($6)) with points pointtype 9 pointsize 0.45 linecolor palette title 'Beckmann', \
-    'lights_error.csv' using (bad('GGX')):2:(worse($6)) with points pointtype 7 pointsize 1.1 linecolor palette notitle, \
-    'lights_error.csv' using (bad('Beckmann')):2:(worse($6)) with points pointtype 9 pointsize 1.3 linecolor palette notitle, \
-    'lights_error.csv' using (worst($6)):2:(told($3, $4)) with labels offset 0, 0.7 font ',8' notitle
+    'lights_error.csv' every ::1 using (of('GGX')):2:(worse($6)) with points pointtype 7 pointsize 0.35 linecolor palette notitle, \
+    'lights_error.csv' every ::1 using (of('Beckmann')):2:(worse($6)) with points pointtype 9 pointsize 0.45 linecolor palette notitle, \
+    'lights_error.csv' every ::1 using (bad('GGX')):2:(worse($6)) with points pointtype 7 pointsize 1.1 linecolor palette notitle, \
+    'lights_error.csv' every ::1 using (bad('Beckmann')):2:(worse($6)) with points pointtype 9 pointsize 1.3 linecolor palette notitle, \
+    'lights_error.csv' every ::1 using (worst($6)):2:(told($3, $4)) with labels boxed offset 0, 0.8 font ',8' notitle, \
+    keyentry with points pointtype 7 linecolor rgb '#9B2964' title 'GGX', \
+    keyentry with points pointtype 9 linecolor rgb '#9B2964' title 'Beckmann'
+# How many are worse: of each distribution the share of lights beyond an error.
+unset label 1
+unset logscale cb
+set logscale y
+set xlabel 'error over the exact integral'
+set ylabel 'share of lights that are further off'
+set format y '%g'
+set key inside top right Right noreverse vertical
+set lmargin at screen 0.78
+set rmargin at screen 0.98
+array count[2] = [int(system("grep -c '^GGX' lights_error.csv")), int(system("grep -c '^Beckmann' lights_error.csv"))]
+sorted(name) = sprintf("< grep '^%s' lights_error.csv | cut -d, -f6 | sed 's/^-//' | sort -g", name)
+plot [1e-5:1] [5e-5:1] for [k = 1:2] name = word('GGX Beckmann', k) \
+    sorted(name) using 1:(1.0 - $0 / count[k]) with lines linetype k dashtype k title name
+unset multiplot

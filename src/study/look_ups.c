@@ -118,7 +118,7 @@ static void report_patch(study_run *run, const patch_error found[WAYS][STEPS])
         "µs a pixel (one lane)",
         "cost_us",
         "root mean square error over the mean",
-        "Take all 48: one drawn costs half of it and needs more than four times the samples."
+        "Take all 48: one drawn costs six tenths of it and needs sixteen times the samples."
     };
     study_front(run, &dial, settings, WAYS * STEPS);
 }
@@ -158,7 +158,7 @@ static void measure(study_run *run)
 }
 
 static const study_figure figures[] = {
-    { "look_ups", "Error of a pixel against its cost, for 1 to 256 samples a pixel.", look_ups_gnuplot },
+    { "look_ups", "Error of a pixel against its cost, for 1 to 1024 samples a pixel.", look_ups_gnuplot },
     { NULL, NULL, NULL },
 };
 
@@ -168,6 +168,8 @@ const study look_ups_study = {
     .name = "look-ups",
     .title = "Look-ups: all 48, one drawn, the nearest",
     .truth = "all 48 at 1024 places of each pixel",
+    .choose = "all 48: one drawn costs six tenths and needs sixteen times the samples for the same error.",
+    .share = 0.01,
     .run = measure,
     .figures = figures,
 };

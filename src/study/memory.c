@@ -241,6 +241,8 @@ const study memory_study = {
     .name = "memory",
     .title = "Memory: tables, maps and encodings",
     .truth = "the sum of lobes in double; the smooth lobe",
+    .choose = "counting, which has no tables; of maps that follow a distribution those of 16 x 16 texels.",
+    .share = 0.02,
     .run = measure,
     .figures = figures,
 };

@@ -2,6 +2,7 @@ stats 'models.csv' using 11 every ::1 nooutput
 set title sprintf("Models: what a pixel costs, how far its blocks are off\n{/*0.8 truth: explicit, every facet; %d surfaces of 48 x 48 pixels, Beckmann of α = .3; bars: one standard error}", STATS_max)
 set logscale xy
 set xlabel "ns a pixel\n{/*0.85 Choose counting: its cost does not grow with the facets; explicit only where there are few.}"
+set format x '10^{%L}'
 set ylabel 'error of the standard deviation of blocks of 4 x 4 pixels'
 set key top right Left reverse
 set bars 0.6

@@ -1,10 +1,12 @@
 /* The report of the studies: one page that holds its figures, and names the tables beside it. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "io/output_file.h"
+#include "study/machine.h"
+#include "study/number.h"
 #include "study/study.h"
 
 /* study_page.css, made into text by the build. */
@@ -31,11 +33,45 @@ static void put_escaped(output_file *f, const char *text)
     }
 }
 
+/* Where the exponent ends that printf wrote behind this digit, "e-05"; NULL: there is none. */
+static const char *exponent_at(const char *text, int *exponent)
+{
+    if (text[0] < '0' || text[0] > '9' || text[1] != 'e' || (text[2] != '-' && text[2] != '+'))
+        return NULL;
+    char *end;
+    *exponent = (int)strtol(text + 2, &end, 10);
+    return end > text + 3 ? end : NULL;
+}
+
+/* Escaped, and 6.1e-05 as people write it. */
+static void put_sentence(output_file *f, const char *text)
+{
+    char power[64], one[2] = { '\0', '\0' };
+    while (*text) {
+        int exponent = 0;
+        const char *const end = exponent_at(text, &exponent);
+        one[0] = *text;
+        put_escaped(f, one);
+        snprintf(power, sizeof power, " · 10<sup>%s%d</sup>", exponent < 0 ? "−" : "", abs(exponent));
+        if (exponent != 0)
+            put(f, power);
+        text = end ? end : text + 1;
+    }
+}
+
 /* before, the text, after. */
 static void put_between(output_file *f, const char *before, const char *text, const char *after)
 {
     put(f, before);
     put_escaped(f, text);
+    put(f, after);
+}
+
+/* The same for what is HTML already. */
+static void put_all(output_file *f, const char *before, const char *html, const char *after)
+{
+    put(f, before);
+    put(f, html);
     put(f, after);
 }
 
@@ -92,32 +128,33 @@ static void put_figures(output_file *f, const char *folder, const study_outcome 
 /* The settings of a dial; those on the front stand out. */
 static void put_front(output_file *f, const study_front_table *t)
 {
-    char cells[160];
-    put_between(f, "<table><caption>", t->dial.title, "");
+    char number[160];
+    put_between(f, "<div class=\"wide\"><table class=\"dial\"><caption>", t->dial.title, "");
     put_between(f, " <strong>", t->dial.choose, "</strong></caption>\n<tr><th>Setting</th><th>");
     put_between(f, "", t->dial.cost, "</th><th>");
     put_between(f, "", t->dial.error, "</th></tr>\n");
     for (int i = 0; i < t->count; ++i) {
         const study_setting *const s = &t->settings[i];
         put_between(f, s->on_front ? "<tr class=\"front\"><td>" : "<tr><td>", s->name, "</td>");
-        snprintf(cells, sizeof cells, "<td>%.4g</td><td>%.3g ± %.1g</td></tr>\n", s->cost, s->error, s->bar);
-        put(f, cells);
+        number_rounded(number, sizeof number, s->cost);
+        put_all(f, "<td>", number, "</td><td>");
+        number_measured(number, sizeof number, s->error, s->bar);
+        put_all(f, "", number, "</td></tr>\n");
     }
-    put(f, "</table>\n");
+    put(f, "</table></div>\n");
 }
 
 static void put_study(output_file *f, const char *folder, const study_outcome *o)
 {
-    char took[64];
-    snprintf(took, sizeof took, " (%.1f s)", o->elapsed_s);
     put_between(f, "<section id=\"", o->study->name, "\">\n");
     put_between(f, "<h2>", o->study->title, "</h2>\n");
-    put_between(f, "<p class=\"truth\">Held against: ", o->study->truth, "");
-    put_between(f, "", took, "</p>\n<ul class=\"found\">\n");
+    put_between(f, "<p class=\"truth\">Held against: ", o->study->truth, ".</p>\n");
+    put_between(f, "<p class=\"choose\"><strong>Choose</strong> ", o->study->choose, "</p>\n<ul class=\"found\">\n");
     for (size_t i = 0; i < o->line_count; ++i) {
         const study_line *const line = &o->lines[i];
         put(f, !line->is_check ? "<li>" : line->holds ? "<li class=\"holds\">" : "<li class=\"fails\">");
-        put_between(f, "", line->text, "</li>\n");
+        put_sentence(f, line->text);
+        put(f, "</li>\n");
     }
     put(f, "</ul>\n");
     put_figures(f, folder, o);
@@ -131,6 +168,43 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     put(f, "</p>\n</section>\n");
 }
 
+/* What the whole says on its first page: for each study what to choose, and how it went. */
+static void put_summary(output_file *f, const study_outcome *outcomes, size_t count)
+{
+    char number[64];
+    put(f, "<div class=\"wide\"><table class=\"summary\">\n<tr><th>Study</th><th>Choose</th><th>Bounds that hold</th>"
+           "<th>Took</th></tr>\n");
+    for (size_t i = 0; i < count; ++i) {
+        const study_outcome *const o = &outcomes[i];
+        put_between(f, "<tr><td><a href=\"#", o->study->name, "\">");
+        put_between(f, "", o->study->title, "</a></td><td>");
+        put_between(f, "", o->study->choose, o->failed ? "</td><td class=\"fails\">" : "</td><td>");
+        snprintf(number, sizeof number, "%d of %d", o->checks - o->failed, o->checks);
+        put_all(f, "", number, "</td><td>");
+        number_duration(number, sizeof number, o->elapsed_s);
+        put_all(f, "", number, "</td></tr>\n");
+    }
+    put(f, "</table></div>\n");
+}
+
+static void put_opening(output_file *f, bool is_quick)
+{
+    char text[256];
+    const time_t now = time(NULL);
+    struct tm date;
+    put(f, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width\">\n<title>glint study</title>\n<style>\n");
+    put(f, (const char *)study_page_css);
+    put(f, "</style>\n</head>\n<body>\n<h1>What accuracy costs, and how far off it is</h1>\n");
+    put_between(f, "<p>libglint ", glint_version(), is_quick ? ", a quick run (few samples, wide bounds)" : "");
+    if (gmtime_r(&now, &date) && strftime(text, sizeof text, ", %Y-%m-%d", &date) > 0)
+        put(f, text);
+    machine_describe(text, sizeof text);
+    put_between(f, ", on ", text,
+                ". Times are those of one core: look at ratios. In tables, what nothing beats in both "
+                "cost and error is bold.</p>\n");
+}
+
 bool study_write_page(const study_options *options, const study_outcome *outcomes, size_t count, report *r)
 {
     const size_t size = strlen(options->folder) + sizeof "/report.html";
@@ -142,11 +216,8 @@ bool study_write_page(const study_options *options, const study_outcome *outcome
     free(path);
     if (!f)
         return false;
-    put(f, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-           "<meta name=\"viewport\" content=\"width=device-width\">\n<title>glint study</title>\n<style>\n");
-    put(f, (const char *)study_page_css);
-    put_between(f, "</style>\n</head>\n<body>\n<h1>What accuracy costs, and how far off it is</h1>\n<p>libglint ",
-                glint_version(), options->quick ? ", a quick run: few samples, wide bounds.</p>\n" : ".</p>\n");
+    put_opening(f, options->quick);
+    put_summary(f, outcomes, count);
     for (size_t i = 0; i < count; ++i)
         put_study(f, options->folder, &outcomes[i]);
     put(f, "</body>\n</html>\n");

@@ -106,5 +106,6 @@ static bool draw(const char *folder, const study_figure *figure, const char *end
 bool study_plot(const char *folder, const study_figure *figure, report *r)
 {
     return draw(folder, figure, "png", "pngcairo size 900,560 font 'DejaVu Sans,11'", r) &&
-           draw(folder, figure, "svg", "svg size 900,560 font 'DejaVu Sans,11' background 'white'", r);
+           draw(folder, figure, "svg", "svg size 900,560 font 'DejaVu Sans, Arial, sans-serif,11' background 'white'",
+                r);
 }

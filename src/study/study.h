@@ -22,14 +22,16 @@ typedef struct study_run study_run;
 
 typedef struct study_figure {
     const char *name;            /* of NAME.svg and NAME.png; NULL ends a list */
-    const char *caption;         /* what to see in it */
+    const char *caption;         /* what to see in it; its truth, sample sizes and bars stand in the figure itself */
     const unsigned char *script; /* NAME.gnuplot, made into text by the build */
 } study_figure;
 
 typedef struct study {
-    const char *name;  /* of the option: glint study --NAME */
-    const char *title; /* what it measures */
-    const char *truth; /* what it holds that against */
+    const char *name;   /* of the option: glint study --NAME */
+    const char *title;  /* what it measures */
+    const char *truth;  /* what it holds that against */
+    const char *choose; /* what to take, in one sentence */
+    double share;       /* of the time of all studies, for the progress that is shown: measured once, and roughly */
     void (*run)(study_run *run);
     const study_figure *figures; /* NULL: none */
 } study;
@@ -136,7 +138,7 @@ typedef struct study_outcome {
 bool study_do(const study *what, const study_options *options, study_outcome *out, report *r);
 void study_outcome_free(study_outcome *outcome);
 
-/* Writes FOLDER/report.html, which shows the figures that lie beside it. */
+/* Writes FOLDER/report.html, which holds the figures that lie beside it. */
 bool study_write_page(const study_options *options, const study_outcome *outcomes, size_t count, report *r);
 
 /* Whether there is gnuplot. */

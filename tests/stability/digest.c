@@ -1,11 +1,13 @@
 /* Prints one hash for each model of what the library gives for a large sweep of queries, and one for each vector width
- * of the counting kernel, with traps for floating-point exceptions on. compilers.sh runs it as it was built by several
- * compilers at several levels of optimisation: every build must print the same. */
+ * of the kernels of counting, lobes and the dictionary, with traps for floating-point exceptions on. compilers.sh runs
+ * it as it was built by several compilers at several levels of optimisation: every build must print the same. */
 #define _GNU_SOURCE
 #include "traps.h"
 
 #include "exact_inputs.h"
 #include "model/counting_kernel.h"
+#include "model/dictionary_kernel.h"
+#include "model/lobe_kernel.h"
 
 enum { EACH = 160, BATCH = 192 };
 
@@ -158,6 +160,72 @@ static void fill_points(void)
     }
 }
 
+static uint64_t hash_lobes(uint64_t hash, size_t lanes)
+{
+    static lobe_points p;
+    static lobe_lit lit;
+    uint64_t random = 53;
+    for (int round = 0; round < 24; round++) {
+        glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+        o.distribution = (glint_distribution)(round % 2);
+        o.fresnel = (glint_fresnel)(round / 2 % 3);
+        for (int i = 0; i < LOBE_MOST; i++) {
+            float wo[3], wi[3];
+            exact_direction(&random, wo);
+            exact_direction(&random, wi);
+            for (int k = 0; k < 3; k++) {
+                p.wo[k][i] = wo[k];
+                p.wi[k][i] = wi[k];
+                p.diffuse[k][i] = (float)random_uniform(&random);
+                p.f0[k][i] = (float)random_uniform(&random);
+                p.f90[k][i] = 1.0F;
+            }
+            p.alpha_x[i] = ldexpf(1.0F, -(int)(random_bits(&random) % 13));
+            p.alpha_y[i] = i % 2 ? p.alpha_x[i] : ldexpf(1.0F, -(int)(random_bits(&random) % 13));
+            p.total_area[i] = i % 3 ? 0.0F : 1.25F;
+            p.solid_angle[i] = exact_solid_angle(&random);
+        }
+        lobe_kernel_widest(lanes)(&o, &p, LOBE_MOST, 1, &lit);
+        hash = hash_floats(hash, (const float *)&lit, sizeof(lit) / sizeof(float));
+    }
+    return hash;
+}
+
+static uint64_t hash_dictionary(uint64_t hash, size_t lanes)
+{
+    enum { CELLS = 400 };
+    static dictionary table;
+    static dictionary_scratch scratch;
+    static dictionary_corners corners;
+    static dictionary_cells cells;
+    static float weight[DICTIONARY_ROOM], density[DICTIONARY_ROOM];
+    static uint32_t name[DICTIONARY_ROOM];
+    static int is_built;
+    const dictionary_width width = dictionary_widest(lanes);
+    uint64_t random = 54;
+    if (!is_built)
+        dictionary_build(&table, &scratch, 5);
+    is_built = 1;
+    for (int round = 0; round < 24; round++) {
+        for (int i = 0; i < CELLS; i++) {
+            corners.row[i] = (uint32_t)random_bits(&random);
+            corners.low[i] = (uint32_t)random_bits(&random);
+            corners.high[i] = (uint32_t)random_bits(&random);
+            corners.r2[i] = (float)random_uniform(&random);
+            cells.hash[i] = (uint32_t)random_bits(&random);
+            cells.log4_facets[i] = (float)random_between(&random, 0.0, 16.0);
+        }
+        const float x = (float)random_between(&random, -2.0, 2.0);
+        width.weigh(&corners, CELLS, name, weight);
+        width.look(&table, round % 2 ? NDF_GGX : NDF_BECKMANN, &cells, CELLS, x, 0.25F, density);
+        hash = hash_floats(hash, weight, CELLS);
+        hash = hash_floats(hash, density, CELLS);
+        for (int i = 0; i < CELLS; i++)
+            hash = (hash ^ name[i]) * 0x100000001b3U;
+    }
+    return hash;
+}
+
 /* Widths that this machine lacks are left out. */
 static void print_kernels(void)
 {
@@ -179,6 +247,7 @@ static void print_kernels(void)
         w.tinted(&points, POINTS, &palette, factors, facets);
         for (int k = 0; k < 3; k++)
             hash = hash_floats(hash, factor[k], POINTS);
+        hash = hash_dictionary(hash_lobes(hash, lanes), lanes);
         printf("lanes %-6zu %016llx\n", lanes, (unsigned long long)hash);
     }
 }

@@ -273,7 +273,7 @@ static const setting SETTINGS[] = {
 static void simulate(study *s)
 {
     FILE *table = study_open(s, "blocks.csv");
-    fprintf(table, "filter,distribution,tilt,facets_per_pixel,pixel_m,k,expected,measured,sigma\n");
+    fprintf(table, "filter,distribution,tilt,facets_per_pixel,pixel_m,k,expected,measured,sigma,blocks\n");
     uint64_t random = 1;
     for (int filter = 0; filter < 2; filter++) {
         const int settings = s->is_short ? 4 : (int)(sizeof(SETTINGS) / sizeof(SETTINGS[0]));
@@ -286,9 +286,9 @@ static void simulate(study *s)
             for (int k = 0; k < SIZES; k++) {
                 const double sigmas = (r[k].measured - r[k].expected) / r[k].sigma;
                 printf("  %.3f +- %.3f (%+.1f)", r[k].measured, r[k].sigma, sigmas);
-                fprintf(table, "%s,%s,%g,%g,%g,%d,%.4f,%.4f,%.4f\n", filter ? "tent" : "box",
+                fprintf(table, "%s,%s,%g,%g,%g,%d,%.4f,%.4f,%.4f,%d\n", filter ? "tent" : "box",
                         at->distribution ? "Beckmann" : "GGX", at->tilt, at->facets, at->size, 1 << k, r[k].expected,
-                        r[k].measured, r[k].sigma);
+                        r[k].measured, r[k].sigma, blocks);
                 /* 80 means of correlated sizes; 2 % for the light, and counts of a real number of trials, whose
                  * variance is f p (1 - f p) and not f p (1 - p) in the fraction: 1 % at p = .01. */
                 study_check(s, fabs(r[k].measured - r[k].expected) < 4.0 * r[k].sigma + 0.01,

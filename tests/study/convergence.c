@@ -34,8 +34,8 @@ static void random_tilt(uint64_t *random, float v[3])
     v[2] = (float)cos(theta);
 }
 
-/* Root mean square of value / smooth - 1 over views, lights and places. */
-static double distance(const glint_material *m, double facets, int points, uint64_t *random)
+/* Root mean square of value / smooth - 1 over views, lights and places, and its standard error. */
+static double distance(const glint_material *m, double facets, int points, uint64_t *random, double *bar)
 {
     moments square = { 0 };
     glint_surface s = glint_material_surface(m);
@@ -53,14 +53,16 @@ static double distance(const glint_material *m, double facets, int points, uint6
         const double d = (double)v.rgb[0] / (double)v.smooth[0] - 1.0;
         moments_add(&square, d * d);
     }
-    return sqrt(square.mean);
+    const double root = sqrt(square.mean);
+    *bar = root > 0.0 ? moments_standard_error(&square) / (2.0 * root) : 0.0;
+    return root;
 }
 
 int main(int argc, char **argv)
 {
     study s = study_start(argc, argv);
     FILE *table = study_open(&s, "convergence.csv");
-    fprintf(table, "model,facets_per_pixel,root_mean_square\n");
+    fprintf(table, "model,facets_per_pixel,root_mean_square,bar,points\n");
     uint64_t random = 1;
     for (size_t i = 0; i < sizeof(CURVES) / sizeof(CURVES[0]); i++) {
         const curve *c = &CURVES[i];
@@ -73,8 +75,9 @@ int main(int argc, char **argv)
         for (double n = 1.0; n <= c->most_facets; n *= 10.0) {
             /* Four million facets are enough of the explicit ones for a short look. */
             const int points = c->model == GLINT_MODEL_EXPLICIT && s.is_short ? (int)fmin(4000.0, 4e6 / n) : 4000;
-            const double r = distance(m, n, points, &random);
-            fprintf(table, "%s,%g,%.6g\n", c->name, n, r);
+            double bar;
+            const double r = distance(m, n, points, &random, &bar);
+            fprintf(table, "%s,%g,%.6g,%.2g,%d\n", c->name, n, r, bar, points);
             study_check(&s, n < 50.0 || r <= c->fall * last + c->resolution, "%s: %g at %g facets, %g at a tenth",
                         c->name, r, n, last);
             last = r;

@@ -1,5 +1,6 @@
 table = folder.'/furnace.csv'
-set multiplot layout 1,3 title 'Weak white furnace of the dictionary (Chermain et al. 2020, Figure 9)'
+set multiplot layout 1,3 title "Weak white furnace of the dictionary (Chermain et al. 2020, Figure 9)\n{/*0.8 truth: 1; one patch a point, integrated over 60 000 half vectors; no bars, the sum is good to 10^{-5}}"
+set bmargin at screen 0.16
 set yrange [0.985:1.015]
 set ylabel 'reflected / incident'
 set key top left
@@ -17,5 +18,6 @@ do for [i=0:2] {
         1.012 with lines linecolor rgb '#E0B090' dashtype 2 title 'the paper, 1.56', \
         0.988 with lines linecolor rgb '#E0B090' dashtype 2 notitle
     unset ylabel
+    if (i == 1) { set label 1 'Choose any: no roughness, density or variation makes or loses light.' at screen 0.5, screen 0.03 center font ',10' }
 }
 unset multiplot

@@ -87,8 +87,8 @@ static void write_histogram(FILE *table, double facets, double *const values[MOD
             bins[k][bin < 0.0 ? 0 : bin >= BINS ? BINS - 1 : (int)bin]++;
         }
     for (int i = 0; i < BINS; i++)
-        fprintf(table, "%g,%.6g,%.6g,%.6g\n", facets, exp2((i + 0.5) / 3.0 - 6.0), (double)bins[0][i] / count,
-                (double)bins[1][i] / count);
+        fprintf(table, "%g,%.6g,%.6g,%.6g,%d\n", facets, exp2((i + 0.5) / 3.0 - 6.0), (double)bins[0][i] / count,
+                (double)bins[1][i] / count, count);
     fprintf(table, "\n\n");
 }
 
@@ -96,7 +96,7 @@ int main(int argc, char **argv)
 {
     study s = study_start(argc, argv);
     FILE *histogram = study_open(&s, "histogram.csv"), *quantiles = study_open(&s, "histogram_quantiles.csv");
-    fprintf(histogram, "facets_per_pixel,value,counting,explicit\n");
+    fprintf(histogram, "facets_per_pixel,value,counting,explicit,pixels\n");
     fprintf(quantiles, "facets_per_pixel,share,counting,explicit\n");
     for (size_t n = 0; n < sizeof(FACETS) / sizeof(FACETS[0]); n++) {
         const int count = s.is_short ? (int)fmin(20000.0, 2e6 / FACETS[n]) : 100000;

@@ -11,7 +11,7 @@ for script in "$1".gnuplot "$1"_*.gnuplot; do
     gnuplot -e "folder='$folder'; set terminal pngcairo size 900,560 font 'DejaVu Sans,11'; set output '$figure.part'" \
         ../../src/study/style.gnuplot "$script"
     mv "$figure.part" "$figure.png"
-    gnuplot -e "folder='$folder'; set terminal svg size 900,560 font 'DejaVu Sans,11' background 'white'; set output '$figure.part'" \
+    gnuplot -e "folder='$folder'; set terminal svg size 900,560 font 'DejaVu Sans, Arial, sans-serif,11' background 'white'; set output '$figure.part'" \
         ../../src/study/style.gnuplot "$script"
     mv "$figure.part" "$figure.svg"
 done

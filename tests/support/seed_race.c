@@ -8,10 +8,9 @@ static const uint32_t SEED = 5U;
 size_t example_bytes(const example *e)
 {
     const size_t tiles = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, e->levels);
-    const size_t ranges = example_tiles_before(e, 0, e->levels);
     const size_t maps = tiles * e->tiles.length + SLOPE_MOST_LENGTH;
     const slope_map *last = &e->overall.maps[e->overall.length - 1];
-    return sizeof(*e) + (size_t)e->size * e->size * sizeof(example_texel) + ranges * sizeof(tile_slopes) +
+    return sizeof(*e) + (size_t)e->size * e->size * sizeof(example_texel) + tiles * sizeof(quarter_slopes) +
            maps * sizeof(slope_map) + (SLOPE_MAP_SIDE + 1) * sizeof(float) + last->first +
            (size_t)last->columns * last->rows;
 }
