@@ -34,6 +34,12 @@ typedef struct grid_vertex {
     vint level;       /* log2 of the minor axis squared */
 } grid_vertex;
 
+/* The same at any level. */
+typedef struct grid_corner {
+    vfloat direction;
+    vint ratio;
+} grid_corner;
+
 /* The footprint's size, shape and direction in units of the lattice of grids. */
 typedef struct grid_shape {
     vint level, ratio;
@@ -90,9 +96,9 @@ static inline grid_shape grid_shape_of(const grid_ellipse *e)
     return s;
 }
 
-/* The triangle of (direction, ratio) around the shape: vertices in the order in which they rise to the next level,
+/* The triangle of (direction, ratio) around the shape: corners in the order in which they rise to the next level,
  * which must be the same on both sides of every edge. */
-static inline void grid_triangle(const grid_shape *s, grid_vertex vertex[3], vfloat weight[3])
+static inline void grid_triangle(const grid_shape *s, grid_corner corner[3], vfloat weight[3])
 {
     const vfloat y = s->ratio_fraction;
     const vfloat directions = exp2_i(s->ratio);
@@ -124,13 +130,42 @@ static inline void grid_triangle(const grid_shape *s, grid_vertex vertex[3], vfl
     a = low;
     a_direction = low_direction;
 
-    vertex[0] = (grid_vertex){ a_direction, s->ratio, s->level };
-    vertex[1] = (grid_vertex){ b_direction, b_ratio, s->level };
-    vertex[2] = (grid_vertex){ 2.0F * left + 1.0F, s->ratio + 1, s->level };
+    corner[0] = (grid_corner){ a_direction, s->ratio };
+    corner[1] = (grid_corner){ b_direction, b_ratio };
+    corner[2] = (grid_corner){ 2.0F * left + 1.0F, s->ratio + 1 };
     /* Rounding may leave a hair below zero. */
     weight[0] = max_f(a, splat(0.0F));
     weight[1] = max_f(b, splat(0.0F));
     weight[2] = c;
+}
+
+/* The tetrahedron: the triangle at this level and the next, whose vertices rise one after another as the area grows.
+ * Grid 0 stands on corner 0 below, grid 3 on corner 2 above. Grid 1 stands on corner 1, above where `last` is set, and
+ * grid 2 on corner 2 below where `first` is set; else above, on corner 0 where `last` is set and on corner 1 elsewhere.
+ */
+typedef struct grid_simplex {
+    grid_corner corner[3];
+    vint level;
+    vmask first, last; /* the vertex that is rising */
+    vfloat share[GRID_COUNT];
+} grid_simplex;
+
+static inline void grid_simplex_of(const grid_shape *s, grid_simplex *t)
+{
+    vfloat w[3];
+    grid_triangle(s, t->corner, w);
+    t->level = s->level;
+    /* Area rises by 2 per unit weight of the vertices at the next ratio, which come first, then by 1. */
+    const vfloat risen = min_f(max_f(0.5F * s->rise, s->rise - s->ratio_fraction), splat(1.0F));
+    const vfloat c_up = min_f(w[2], risen);
+    const vfloat b_up = min_f(max_f(risen - w[2], splat(0.0F)), w[1]);
+    const vfloat a_up = min_f(max_f(risen - w[2] - w[1], splat(0.0F)), w[0]);
+    t->first = less_equal(risen, w[2]);
+    t->last = less(w[2] + w[1], risen);
+    t->share[0] = max_f(w[0] - a_up, splat(0.0F));
+    t->share[1] = choose(t->last, w[1], w[1] - b_up);
+    t->share[2] = choose(t->first, w[2] - c_up, choose(t->last, a_up, b_up));
+    t->share[3] = c_up;
 }
 
 static inline grid_vertex grid_select(vmask m, grid_vertex a, grid_vertex b)
@@ -139,61 +174,85 @@ static inline grid_vertex grid_select(vmask m, grid_vertex a, grid_vertex b)
                           choose_i(m, a.level, b.level) };
 }
 
-/* The tetrahedron: the triangle at this level and the next, whose vertices rise one after another as the area grows. */
 static inline void grid_tetrahedron(const grid_shape *s, grid_vertex vertex[GRID_COUNT], vfloat share[GRID_COUNT])
 {
-    grid_vertex t[3];
-    vfloat w[3];
-    grid_triangle(s, t, w);
-    /* Area rises by 2 per unit weight of the vertices at the next ratio, which come first, then by 1. */
-    const vfloat risen = min_f(max_f(0.5F * s->rise, s->rise - s->ratio_fraction), splat(1.0F));
-    const vfloat c_up = min_f(w[2], risen);
-    const vfloat b_up = min_f(max_f(risen - w[2], splat(0.0F)), w[1]);
-    const vfloat a_up = min_f(max_f(risen - w[2] - w[1], splat(0.0F)), w[0]);
-    const vmask first = less_equal(risen, w[2]), last = less(w[2] + w[1], risen);
-
-    grid_vertex raised[3] = { t[0], t[1], t[2] };
-    for (int i = 0; i < 3; i++)
-        raised[i].level = raised[i].level + 1;
-    vertex[0] = t[0];
-    share[0] = max_f(w[0] - a_up, splat(0.0F));
-    vertex[1] = grid_select(last, raised[1], t[1]);
-    share[1] = choose(last, w[1], w[1] - b_up);
-    vertex[2] = grid_select(first, t[2], grid_select(last, raised[0], raised[1]));
-    share[2] = choose(first, w[2] - c_up, choose(last, a_up, b_up));
-    vertex[3] = raised[2];
-    share[3] = c_up;
+    grid_simplex t;
+    grid_vertex low[3], high[3];
+    grid_simplex_of(s, &t);
+    for (int i = 0; i < 3; i++) {
+        low[i] = (grid_vertex){ t.corner[i].direction, t.corner[i].ratio, t.level };
+        high[i] = (grid_vertex){ t.corner[i].direction, t.corner[i].ratio, t.level + 1 };
+    }
+    vertex[0] = low[0];
+    vertex[1] = grid_select(t.last, high[1], low[1]);
+    vertex[2] = grid_select(t.first, low[2], grid_select(t.last, high[0], high[1]));
+    vertex[3] = high[2];
+    for (int i = 0; i < GRID_COUNT; i++)
+        share[i] = t.share[i];
 }
 
-/* What of x is above the largest integer below it, in [0, 1], and the low 32 bits of that integer; an integer is itself
- * with 0 or the one below with 1. Adding 1.5 * 2^52 leaves the nearest integer to x - 1/2 in the low bits; beyond 2^51
- * in size what comes out is no floor, but a number. */
+/* What of x is above the largest integer that is no larger, in [0, 1], and the low 32 bits of that integer: adding
+ * 1.5 * 2^52 leaves it in the low bits. Beyond 2^51 in size they are just bits. */
 static inline vfloat grid_fraction(vdouble x, vuint *integer)
 {
-    const vdouble shift = splat_d(6755399441055744.0), shifted = add_d(subtract_d(x, splat_d(0.5)), shift);
-    *integer = low_word(shifted);
-    return min_f(max_f(narrow(subtract_d(x, subtract_d(shifted, shift))), splat(0.0F)), splat(1.0F));
+    const vdouble whole = floor_d(x);
+    *integer = low_word(add_d(whole, splat_d(6755399441055744.0)));
+    return narrow(subtract_d(x, whole));
 }
 
-/* From metres to coordinates in the lattice of one grid: x = xu u + xv v + x0, y = yv v - yu u + y0. */
+/* What a grid is made of: its direction and ratio, which grids of two levels share, and its level. */
+typedef struct grid_way {
+    vfloat sine, cosine;
+    vfloat squeeze; /* 1 / aspect ratio */
+    vuint number;
+} grid_way;
+
+typedef struct grid_size {
+    vfloat across; /* 1 / minor axis: 2^(-level / 2) */
+    vuint number;
+} grid_size;
+
+static inline grid_way grid_way_of(vfloat direction, vint ratio)
+{
+    grid_way w;
+    w.squeeze = exp2_i(-ratio);
+    sincos_pi(direction * w.squeeze, &w.sine, &w.cosine);
+    w.number = (vuint)to_int(direction) * HASH_X + (vuint)ratio * HASH_Y;
+    return w;
+}
+
+static inline grid_size grid_size_of(vint level, vuint seed)
+{
+    const vfloat half = choose(equal_i(level & 1, splat_i(1)), splat(0.70710678F), splat(1.0F));
+    return (grid_size){ exp2_i(-(level >> 1)) * half, seed + (vuint)level * HASH_Z };
+}
+
+static inline grid_way grid_select_way(vmask m, const grid_way *a, const grid_way *b)
+{
+    return (grid_way){ choose(m, a->sine, b->sine), choose(m, a->cosine, b->cosine), choose(m, a->squeeze, b->squeeze),
+                       choose_u(m, a->number, b->number) };
+}
+
+static inline grid_size grid_select_size(vmask m, const grid_size *a, const grid_size *b)
+{
+    return (grid_size){ choose(m, a->across, b->across), choose_u(m, a->number, b->number) };
+}
+
+/* From metres to coordinates in the lattice of one grid: x = xu u + xv v + start, y = yv v - yu u + start. */
 typedef struct grid_map {
-    vfloat xu, xv, x0, yu, yv, y0;
+    vfloat xu, xv, yu, yv, start;
 } grid_map;
 
 /* Skewed coordinates (x - y / sqrt 3, y * 2 / sqrt 3) of the stretched position. Every point of a grid sees the same
  * numbers, so their rounding does not matter. */
-static inline grid_map grid_map_of(const grid_vertex *g, vfloat sine, vfloat cosine, vuint grid)
+static inline grid_map grid_map_of(const grid_way *way, vfloat across, vuint grid)
 {
-    /* 2^(-level / 2) */
-    const vfloat across =
-        exp2_i(-(g->level >> 1)) * choose(equal_i(g->level & 1, splat_i(1)), splat(0.70710678F), splat(1.0F));
-    const vfloat along = across * exp2_i(-g->ratio);
-    const vfloat skew = across * 0.577350269F, tall = across * 1.15470054F;
-    /* Each grid starts somewhere else: else all would have a vertex at the origin, and the blend would be sharper
-     * there. */
-    const vfloat x0 = to_float((vint)(grid & 0xffffU)) * (1.0F / 65536.0F);
-    const vfloat y0 = to_float((vint)(grid >> 16)) * (1.0F / 65536.0F);
-    return (grid_map){ cosine * along + sine * skew, sine * along - cosine * skew, x0, sine * tall, cosine * tall, y0 };
+    const vfloat along = across * way->squeeze, skew = across * 0.577350269F, tall = across * 1.15470054F;
+    /* Each grid starts somewhere else, in [1, 2) along its diagonal: else all would have a vertex at the origin, and
+     * the blend would be sharper there. */
+    const vfloat start = float_from_bits(grid >> 9 | 0x3f800000U);
+    return (grid_map){ way->cosine * along + way->sine * skew, way->sine * along - way->cosine * skew, way->sine * tall,
+                       way->cosine * tall, start };
 }
 
 /* Integer coordinates, and what is left of each in [0, 1]. Where cells have no numbers any more the weights of the
@@ -205,8 +264,9 @@ typedef struct grid_place {
 
 static inline grid_place grid_place_of(const grid_map *m, vdouble u, vdouble v)
 {
-    const vdouble x = add_d(add_d(multiply_d(u, widen(m->xu)), multiply_d(v, widen(m->xv))), widen(m->x0));
-    const vdouble y = add_d(subtract_d(multiply_d(v, widen(m->yv)), multiply_d(u, widen(m->yu))), widen(m->y0));
+    const vdouble start = widen(m->start);
+    const vdouble x = add_d(add_d(multiply_d(u, widen(m->xu)), multiply_d(v, widen(m->xv))), start);
+    const vdouble y = add_d(subtract_d(multiply_d(v, widen(m->yv)), multiply_d(u, widen(m->yu))), start);
     grid_place p;
     p.fx = grid_fraction(x, &p.x);
     p.fy = grid_fraction(y, &p.y);
@@ -231,23 +291,19 @@ static inline void grid_surround(const grid_place *p, vuint grid, vuint cell[GRI
  * the compiler, 1 or all.
  *
  * Step by step for all of them: what is computed for one is a long chain, and a compiler does not interleave chains. */
-static inline __attribute__((always_inline)) void grid_cells(const grid_vertex *vertex, const int grids, vdouble u,
-                                                             vdouble v, vuint seed, vuint *cell, vfloat *weight)
+static inline __attribute__((always_inline)) void grid_lay(const grid_way *way, const grid_size *size, const int grids,
+                                                           vdouble u, vdouble v, vuint *cell, vfloat *weight)
 {
-    vfloat sine[GRID_COUNT], cosine[GRID_COUNT];
+    const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
     vuint grid[GRID_COUNT];
     grid_map map[GRID_COUNT];
     grid_place place[GRID_COUNT];
 #pragma GCC unroll 4
     for (int i = 0; i < grids; i++)
-        sincos_pi(vertex[i].direction * exp2_i(-vertex[i].ratio), &sine[i], &cosine[i]);
+        grid[i] = hash_top(size[i].number + way[i].number, hash);
 #pragma GCC unroll 4
     for (int i = 0; i < grids; i++)
-        grid[i] = hash_full(seed + (vuint)to_int(vertex[i].direction) * HASH_X + (vuint)vertex[i].ratio * HASH_Y +
-                            (vuint)vertex[i].level * HASH_Z);
-#pragma GCC unroll 4
-    for (int i = 0; i < grids; i++)
-        map[i] = grid_map_of(&vertex[i], sine[i], cosine[i], grid[i]);
+        map[i] = grid_map_of(&way[i], size[i].across, grid[i]);
 #pragma GCC unroll 4
     for (int i = 0; i < grids; i++)
         place[i] = grid_place_of(&map[i], u, v);
@@ -259,13 +315,40 @@ static inline __attribute__((always_inline)) void grid_cells(const grid_vertex *
         cell[i] = hash_full(cell[i]);
 }
 
+/* Those of one grid. */
+static inline void grid_cells(const grid_vertex *vertex, vdouble u, vdouble v, vuint seed, vuint cell[GRID_CELLS],
+                              vfloat weight[GRID_CELLS])
+{
+    const grid_way way = grid_way_of(vertex->direction, vertex->ratio);
+    const grid_size size = grid_size_of(vertex->level, seed);
+    grid_lay(&way, &size, 1, u, v, cell, weight);
+}
+
+/* Those of all four, which have three directions and two sizes among them. */
+static inline void grid_point_of(const grid_simplex *t, vdouble u, vdouble v, vuint seed, grid_point *p)
+{
+    grid_way corner[3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; i++)
+        corner[i] = grid_way_of(t->corner[i].direction, t->corner[i].ratio);
+    const grid_size low = grid_size_of(t->level, seed), high = grid_size_of(t->level + 1, seed);
+    const grid_way raised = grid_select_way(t->last, &corner[0], &corner[1]);
+    const grid_way way[GRID_COUNT] = { corner[0], corner[1], grid_select_way(t->first, &corner[2], &raised),
+                                       corner[2] };
+    const grid_size size[GRID_COUNT] = { low, grid_select_size(t->last, &high, &low),
+                                         grid_select_size(t->first, &low, &high), high };
+    grid_lay(way, size, GRID_COUNT, u, v, p->cell, p->weight);
+    for (int i = 0; i < GRID_COUNT; i++)
+        p->share[i] = t->share[i];
+}
+
 /* (u, v) in metres; beyond 2^51 cells from the origin single cells cannot be told apart. */
 static inline void grid_locate(vdouble u, vdouble v, const grid_ellipse *ellipse, vuint seed, grid_point *p)
 {
     const grid_shape shape = grid_shape_of(ellipse);
-    grid_vertex vertex[GRID_COUNT];
-    grid_tetrahedron(&shape, vertex, p->share);
-    grid_cells(vertex, GRID_COUNT, u, v, seed, p->cell, p->weight);
+    grid_simplex simplex;
+    grid_simplex_of(&shape, &simplex);
+    grid_point_of(&simplex, u, v, seed, p);
 }
 
 #endif

@@ -45,20 +45,21 @@ static inline binomial_chance binomial_chance_of(vfloat p)
     return c;
 }
 
-#define BINOMIAL_SCALE 2147483648.0F
+/* Chances are kept times 2^31. */
+#define BINOMIAL_SCALE_LOG2 31
 
-/* A chance times 2^31, below 2^31, to the number T for which a signed uniform 32-bit u with u < T has that chance.
- * Negative: 0. A number in [0, 1) added at random makes the chance right in the mean even below 2^-31. */
+/* A chance times 2^31, below 2^31, to the number T for which a signed uniform 32-bit u with u < T has that chance. A
+ * number in [0, 1) added at random makes the chance right in the mean even below 2^-31. */
 static inline vint binomial_threshold(vfloat scaled)
 {
-    return (vint)((vuint)to_int(max_f(scaled, splat(0.0F))) << 1 ^ 0x80000000U);
+    return (vint)((vuint)to_int(scaled) << 1 ^ 0x80000000U);
 }
 
 /* The same for any chance up to one. One is missed once in 2^24. */
 static inline vint binomial_first_threshold(vfloat scaled)
 {
     /* The smaller one by its bits: GCC 12 converts both and then chooses, and 2^31 is no integer to convert. */
-    const vint most = (vint)bits_of(splat(2147483520.0F)), bits = (vint)bits_of(max_f(scaled, splat(0.0F)));
+    const vint most = (vint)bits_of(splat(2147483520.0F)), bits = (vint)bits_of(scaled);
     return binomial_threshold(float_from_bits((vuint)min_i(bits, most)));
 }
 
@@ -124,13 +125,11 @@ typedef struct binomial_start {
 static inline __attribute__((always_inline)) binomial_start
 binomial_start_of(const binomial_law *l, const binomial_chance *chance, const vint *u, vfloat dither, const int draws)
 {
-    vfloat em1, mass;
-    exp_both(l->n * chance->log_miss, &em1, &mass);
+    /* Lanes that are not walked have no trials: their chances stay numbers, and no uniform is as small as theirs. */
+    const vfloat n = choose(l->wide, splat(0.0F), l->n);
     binomial_start s;
-    /* Lanes that are not walked stay at zero: a step of 0 keeps them from overflowing, and nothing survives. */
-    s.survival = choose(l->wide, splat(0.0F), em1 * -BINOMIAL_SCALE);
-    s.mass = mass * BINOMIAL_SCALE;
-    s.step = choose(l->wide, splat(0.0F), l->n * chance->odds);
+    exp_both(n * chance->log_miss, BINOMIAL_SCALE_LOG2, &s.survival, &s.mass);
+    s.step = n * chance->odds;
     s.least = u[0];
     for (int i = 1; i < draws; i++)
         s.least = min_i(s.least, u[i]);
@@ -154,6 +153,10 @@ static inline __attribute__((always_inline)) vfloat binomial_walk(const binomial
     vfloat survival = s->survival, mass = s->mass, step = s->step;
     vint next = s->first;
     for (int k = 1; any(less_i(s->least, next)); k++) {
+#if GLINT_LANES > 1
+        /* Hides from GCC that these stay the same: it would copy all of them to the stack before the loop. */
+        __asm__("" : "+r"(u), "+r"(weight));
+#endif
         binomial_count(draws, next, u, weight, sum, drawn);
         if (k == BINOMIAL_WALK_STEPS)
             break;
@@ -161,7 +164,7 @@ static inline __attribute__((always_inline)) vfloat binomial_walk(const binomial
         mass = max_f(mass * step * inverse[k], splat(1e-30F));
         step = step - chance->odds;
         survival = survival - mass;
-        next = binomial_threshold(survival + l->b * mass);
+        next = binomial_threshold(max_f(survival + l->b * mass, splat(0.0F)));
     }
     return sum[0] + sum[1] + sum[2];
 }
@@ -197,7 +200,7 @@ static inline __attribute__((always_inline)) vfloat binomial_expand(const binomi
     vfloat sum[BINOMIAL_PARTS] = { splat(0.0F), splat(0.0F), splat(0.0F) };
 #pragma GCC unroll 12
     for (int i = 0; i < draws; i++) {
-        const vfloat z = normal_quantile(to_float(u[i]) * 4.656612e-10F);
+        const vfloat z = normal_quantile_i(u[i]);
         const vfloat x = floor_f(e.centre - z * (e.slope - z * (e.bend - z * e.twist)));
         const vfloat count = min_f(max_f(x, splat(0.0F)), most);
         sum[i % BINOMIAL_PARTS] = sum[i % BINOMIAL_PARTS] + weight[i] * count;

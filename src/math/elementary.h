@@ -61,13 +61,20 @@ static inline void exp_reduce(vfloat t, vfloat *q, vfloat *scale)
     *scale = exp2_i(to_int(n));
 }
 
-/* *em1 = exp(t) - 1 and *e = exp(t) for t <= 0; below -60 as at -60. */
-static inline void exp_both(vfloat t, vfloat *em1, vfloat *e)
+/* *e = exp(t) and *missing = 1 - exp(t), which keeps its precision near 0, both times 2^scale, for t in [-60, 0]. One
+ * degree less than above: the error is 6e-9. */
+static inline void exp_both(vfloat t, const int scale, vfloat *missing, vfloat *e)
 {
-    vfloat q, s;
-    exp_reduce(max_f(t, splat(-60.0F)), &q, &s);
-    *e = q * s + s;
-    *em1 = q * s + (s - 1.0F);
+    const vfloat n = floor_f(t * 1.44269504F + 0.5F);
+    vfloat r = t - n * 0.693359375F;
+    r = r + n * 2.12194440e-4F;
+    vfloat p = 1.394112263e-3F * r + 8.366768787e-3F;
+    p = p * r + 4.166635272e-2F;
+    p = p * r + 1.666654106e-1F;
+    p = p * r + 5.000000047e-1F;
+    const vfloat q = p * r * r + r, s = exp2_i(to_int(n) + scale), qs = q * s;
+    *e = qs + s;
+    *missing = (exp2_i(splat_i(scale)) - s) - qs;
 }
 
 /* exp(t) for t <= 0, 0 below -87. */
@@ -137,6 +144,28 @@ static inline vfloat normal_quantile(vfloat x)
     r = r * l + 2.312640392e-01F;
     r = r * l + 1.251269917F;
     return x * r;
+}
+
+/* The same for x = 2^-31 u, a uniform of 32 bits, with fewer steps: x times the sum of a polynomial in l, which is
+ * -log2(1 - x^2) but a straight line between powers of two, and one in the mantissa that makes up for it. Error below
+ * .0008 within 2 sigma, where it is .0002 in the mean square, and .023 within 5; its variance is 1 to 1e-6. A least-
+ * squares fit to the density, continuous where the exponent changes. */
+static inline vfloat normal_quantile_i(vint u)
+{
+    const float unit = 0x1p-31F;
+    const vfloat x = to_float(u);
+    /* The float after 2^62, so that something is left. */
+    const vfloat w = 0x1.000002p62F - x * x;
+    const vfloat l = to_float((vint)(bits_of(splat(0x1p62F)) - bits_of(w))) * 0x1p-23F;
+    const vfloat m = mantissa_of(w);
+    vfloat k = -3.76786983e-2F * unit * m + 2.49919364e-1F * unit;
+    k = k * m - 4.86007205e-1F * unit;
+    k = k * m + 1.52734675F * unit;
+    vfloat r = -1.51297691e-06F * unit * l + 8.22271669e-05F * unit;
+    r = r * l - 1.56520111e-03F * unit;
+    r = r * l + 8.66407115e-03F * unit;
+    r = r * l + 2.26450446e-01F * unit;
+    return x * (r * l + k);
 }
 
 #endif

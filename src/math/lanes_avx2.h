@@ -51,6 +51,11 @@ static inline vfloat lookup_f(const float *table, vint index)
     return (vfloat)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
 }
 
+static inline vuint pick_u(vuint from, vint lane)
+{
+    return (vuint)_mm256_permutevar8x32_epi32((__m256i)from, (__m256i)lane);
+}
+
 static inline vuint gather_u(const void *base, vint byte)
 {
     return (vuint)_mm256_i32gather_epi32(base, (__m256i)byte, 1);
@@ -65,6 +70,11 @@ static inline vdouble widen(vfloat f)
 static inline vfloat narrow(vdouble d)
 {
     return (vfloat)_mm256_set_m128(_mm256_cvtpd_ps((__m256d)d.high), _mm256_cvtpd_ps((__m256d)d.low));
+}
+
+static inline vdouble floor_d(vdouble d)
+{
+    return (vdouble){ (half_double)_mm256_floor_pd((__m256d)d.low), (half_double)_mm256_floor_pd((__m256d)d.high) };
 }
 
 static inline vuint low_word(vdouble d)

@@ -98,6 +98,11 @@ static inline vfloat lookup_f(const float *table, vint index)
     return (vfloat)_mm512_permutexvar_ps((__m512i)index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
 }
 
+static inline vuint pick_u(vuint from, vint lane)
+{
+    return (vuint)_mm512_permutexvar_epi32((__m512i)lane, (__m512i)from);
+}
+
 static inline vuint gather_u(const void *base, vint byte)
 {
     return (vuint)_mm512_i32gather_epi32((__m512i)byte, base, 1);
@@ -115,10 +120,16 @@ static inline vfloat narrow(vdouble d)
     return (vfloat)_mm512_insertf32x8(low, _mm512_cvtpd_ps((__m512d)d.high), 1);
 }
 
+static inline vdouble floor_d(vdouble d)
+{
+    return (vdouble){ (half_double)_mm512_roundscale_pd((__m512d)d.low, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC),
+                      (half_double)_mm512_roundscale_pd((__m512d)d.high, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC) };
+}
+
 static inline vuint low_word(vdouble d)
 {
-    const __m512i low = _mm512_castsi256_si512(_mm512_cvtepi64_epi32((__m512i)d.low));
-    return (vuint)_mm512_inserti32x8(low, _mm512_cvtepi64_epi32((__m512i)d.high), 1);
+    const vint even = { 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30 };
+    return (vuint)_mm512_permutex2var_epi32((__m512i)d.low, (__m512i)even, (__m512i)d.high);
 }
 
 #endif

@@ -10,6 +10,14 @@ static inline vfloat lookup_f(const float *table, vint index)
     return v;
 }
 
+static inline vuint pick_u(vuint from, vint lane)
+{
+    vuint v = { 0 };
+    for (int i = 0; i < GLINT_LANES; i++)
+        v[i] = from[lane[i] & (GLINT_LANES - 1)];
+    return v;
+}
+
 static inline vuint gather_u(const void *base, vint byte)
 {
     vuint v = { 0 };

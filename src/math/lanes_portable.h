@@ -72,6 +72,15 @@ static inline vfloat narrow(vdouble d)
     return f;
 }
 
+static inline vdouble floor_d(vdouble d)
+{
+    for (int i = 0; i < GLINT_LANES / 2; i++) {
+        d.low[i] = __builtin_floor(d.low[i]);
+        d.high[i] = __builtin_floor(d.high[i]);
+    }
+    return d;
+}
+
 static inline vuint low_word(vdouble d)
 {
     const half_uint half[2] = { __builtin_convertvector((half_ulong)d.low, half_uint),

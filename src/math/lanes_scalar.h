@@ -115,6 +115,13 @@ static inline vfloat lookup_f(const float *table, vint index)
     return table[index];
 }
 
+/* In every lane what `from` has in that lane, modulo their number. */
+static inline vuint pick_u(vuint from, vint lane)
+{
+    (void)lane;
+    return from;
+}
+
 /* The 32 bits so many bytes after base. */
 static inline vuint gather_u(const void *base, vint byte)
 {
@@ -158,6 +165,11 @@ static inline vdouble widen(vfloat f)
 static inline vfloat narrow(vdouble d)
 {
     return (float)d;
+}
+
+static inline vdouble floor_d(vdouble d)
+{
+    return __builtin_floor(d);
 }
 
 /* The low 32 bits of the double as it stands in memory. */

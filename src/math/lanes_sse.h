@@ -69,6 +69,11 @@ static inline vfloat floor_f(vfloat x)
     return (vfloat)_mm_floor_ps((__m128)x);
 }
 
+static inline vdouble floor_d(vdouble d)
+{
+    return (vdouble){ (half_double)_mm_floor_pd((__m128d)d.low), (half_double)_mm_floor_pd((__m128d)d.high) };
+}
+
 #else
 
 /* Truncates and goes one down where that went up. From 2^23 on every float is whole. */
@@ -78,6 +83,15 @@ static inline vfloat floor_f(vfloat x)
     const vfloat down = whole - choose(less(x, whole), splat(1.0F), splat(0.0F));
     const vmask small = (vfloat)((vint)x & 0x7fffffff) < 8388608.0F;
     return choose(small, down, x);
+}
+
+static inline vdouble floor_d(vdouble d)
+{
+    for (int i = 0; i < GLINT_LANES / 2; i++) {
+        d.low[i] = __builtin_floor(d.low[i]);
+        d.high[i] = __builtin_floor(d.high[i]);
+    }
+    return d;
 }
 
 #endif

@@ -7,6 +7,7 @@
 
 #define GLINT_LANES 1
 #include "math/fade.h"
+#include "math/float_bits.h"
 #include "math/hash.h"
 #include "model/area.h"
 #include "model/lobe.h"
@@ -32,7 +33,7 @@ typedef struct gathered {
     double u[CHUNK], v[CHUNK];
     float dudx[CHUNK], dudy[CHUNK], dvdx[CHUNK], dvdy[CHUNK], density[CHUNK], hx[CHUNK], hy[CHUNK], cap[CHUNK],
         p[CHUNK];
-    uint32_t seed[CHUNK], draw[CHUNK];
+    uint32_t seed[CHUNK], draw[CHUNK], place[CHUNK];
 } gathered;
 
 counting_width counting_widest(size_t max_lanes)
@@ -104,31 +105,38 @@ static int is_discrete(const model_query *q)
            q->surface->facets_per_m2 > 0.0F;
 }
 
-/* Fills entry i from query j. */
-static void gather(const model_query *all, const lobe_lit *lit, size_t j, gathered *g, size_t i)
+/* Fills point k. */
+static void gather_point(const model_query *q, gathered *g, size_t k)
 {
-    const model_query *q = &all[j];
     const glint_material_options *o = &q->material->options;
     const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
-    g->u[i] = f.u;
-    g->v[i] = f.v;
-    g->dudx[i] = f.dudx;
-    g->dudy[i] = f.dudy;
-    g->dvdx[i] = f.dvdx;
-    g->dvdy[i] = f.dvdy;
-    g->density[i] = q->surface->facets_per_m2;
-    g->seed[i] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
-    g->draw[i] = f.draw;
+    g->u[k] = f.u;
+    g->v[k] = f.v;
+    g->dudx[k] = f.dudx;
+    g->dudy[k] = f.dudy;
+    g->dvdx[k] = f.dvdx;
+    g->dvdy[k] = f.dvdy;
+    g->density[k] = q->surface->facets_per_m2;
+    g->seed[k] = hash_full(o->seed * HASH_X + f.seed * HASH_Y);
+}
+
+/* Fills light i, at point k, from query j. */
+static void gather_light(const model_query *q, const lobe_lit *lit, size_t j, gathered *g, size_t i, size_t k)
+{
     g->hx[i] = lit->h[0][j];
     g->hy[i] = lit->h[1][j];
     g->cap[i] = lit->cap[j];
     g->p[i] = lit->p[j];
+    g->draw[i] = q[j].footprint->draw;
+    g->place[i] = (uint32_t)k;
 }
 
-static counting_points points_of(const gathered *g)
+/* Whether two queries of one material see the same facets. */
+static int is_one_point(const model_query *a, const model_query *b)
 {
-    return (counting_points){ g->u,       g->v,    g->dudx, g->dudy, g->dvdx, g->dvdy,
-                              g->density, g->seed, g->hx,   g->hy,   g->cap,  g->p };
+    return a->footprint->u == b->footprint->u &&
+           memcmp(a->footprint, b->footprint, offsetof(glint_footprint, draw)) == 0 &&
+           bits_of_float(a->surface->facets_per_m2) == bits_of_float(b->surface->facets_per_m2);
 }
 
 /* factor: by channel. g: the share of the facets' light that is counted. */
@@ -144,26 +152,50 @@ static const float smooth_factor[3] = { 1.0F, 1.0F, 1.0F };
 
 /* Those queries of a chunk for which facets are counted in the same way. */
 typedef struct counted {
-    gathered points;
-    size_t index[CHUNK], count; /* index[i]: the query of entry i */
-    float share[CHUNK];         /* see combine */
+    gathered all;
+    size_t points, count;
+    size_t index[CHUNK]; /* index[i]: the query of light i */
+    float share[CHUNK];  /* see combine */
 } counted;
 
-static void add(counted *c, const model_query *q, const lobe_lit *lit, size_t index, float share)
+/* Lights that follow one another at a point share it, where they may. */
+static void add(counted *c, const model_query *q, const lobe_lit *lit, size_t index, float share, int may_share)
 {
-    gather(q, lit, index, &c->points, c->count);
+    if (!may_share || c->count == 0 || !is_one_point(&q[c->index[c->count - 1]], &q[index]))
+        gather_point(&q[index], &c->all, c->points++);
+    gather_light(q, lit, index, &c->all, c->count, c->points - 1);
     c->index[c->count] = index;
     c->share[c->count++] = share;
 }
 
-/* The count rounded up to the width, the last entry repeated. */
+/* Rounds up to the width, with the last point and the last light repeated; returns how many lights there are then. */
 static size_t pad(counted *c, const model_query *q, const lobe_lit *lit, size_t lanes)
 {
     const size_t last = c->index[c->count - 1];
-    size_t padded = c->count;
-    for (; padded % lanes != 0; padded++)
-        gather(q, lit, last, &c->points, padded);
-    return padded;
+    size_t lights = c->count;
+    for (size_t k = c->points; k % lanes != 0; k++)
+        gather_point(&q[last], &c->all, k);
+    for (; lights % lanes != 0; lights++)
+        gather_light(q, lit, last, &c->all, lights, c->points - 1);
+    return lights;
+}
+
+static counting_points points_of(const counted *c)
+{
+    const gathered *g = &c->all;
+    return (counting_points){ g->u,
+                              g->v,
+                              g->dudx,
+                              g->dudy,
+                              g->dvdx,
+                              g->dvdy,
+                              g->density,
+                              g->seed,
+                              g->hx,
+                              g->hy,
+                              g->cap,
+                              g->p,
+                              c->points < c->count ? g->place : NULL };
 }
 
 static void put(const counted *c, const lobe_lit *lit, float *const factor[3], const float *facets, glint_value *value)
@@ -173,7 +205,7 @@ static void put(const counted *c, const lobe_lit *lit, float *const factor[3], c
         const float of_point[3] = { factor[0][i], factor[1][i], factor[2][i] };
         combine(lit, c->index[i], c->share[i], of_point, v);
         v->facet_count = facets[i];
-        v->lit_probability = c->points.p[i];
+        v->lit_probability = c->all.p[i];
     }
 }
 
@@ -183,7 +215,7 @@ static void count(counted *c, const model_query *q, const lobe_lit *lit, countin
     if (c->count == 0)
         return;
     float factor[3][CHUNK], facets[CHUNK];
-    const counting_points points = points_of(&c->points);
+    const counting_points points = points_of(c);
     const size_t padded = pad(c, q, lit, width.lanes);
     if (baked->is_tinted) {
         float *const factors[3] = { factor[0], factor[1], factor[2] };
@@ -200,12 +232,12 @@ static void eval_all(const model_query *q, size_t number, counting_width width, 
 {
     lobe_lit lit;
     counted all;
-    all.count = 0;
+    all.points = all.count = 0;
     find_lit(q, number, &lit);
     for (size_t i = 0; i < number; i++) {
         value[i] = (glint_value){ 0 };
         if (is_discrete(&q[i]))
-            add(&all, q, &lit, i, q[i].surface->discreteness);
+            add(&all, q, &lit, i, q[i].surface->discreteness, 1);
         else
             combine(&lit, i, 1.0F, smooth_factor, &value[i]);
     }
@@ -227,9 +259,9 @@ static void count_drawn(counted *c, const model_query *q, const lobe_lit *lit, c
     float factor[CHUNK], facets[CHUNK];
     if (c->count == 0)
         return;
-    const counting_points points = points_of(&c->points);
+    const counting_points points = points_of(c);
     float *const factors[3] = { factor, factor, factor };
-    width.drawn(&points, c->points.draw, pad(c, q, lit, width.lanes), factor, facets);
+    width.drawn(&points, c->all.draw, pad(c, q, lit, width.lanes), factor, facets);
     put(c, lit, factors, facets, value);
 }
 
@@ -239,7 +271,7 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
     const counting_baked *baked = q->material->baked;
     lobe_lit lit;
     counted all, drawn;
-    all.count = drawn.count = 0;
+    all.points = all.count = drawn.points = drawn.count = 0;
     find_lit(q, number, &lit);
     for (size_t i = 0; i < number; i++) {
         value[i] = (glint_value){ 0 };
@@ -251,9 +283,9 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
             value[i].facet_count = facets;
             value[i].lit_probability = facets > 0.0F ? p : 0.0F;
         } else if (3.0F * deviation < o->draw_deviation && !baked->is_tinted) {
-            add(&drawn, q, &lit, i, share * q[i].surface->discreteness);
+            add(&drawn, q, &lit, i, share * q[i].surface->discreteness, 0);
         } else {
-            add(&all, q, &lit, i, share * q[i].surface->discreteness);
+            add(&all, q, &lit, i, share * q[i].surface->discreteness, 1);
         }
     }
     count(&all, q, &lit, width, value);

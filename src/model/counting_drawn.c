@@ -96,7 +96,7 @@ static vfloat drawn_factor(const counting_points *points, size_t i, const grid_e
     const vfloat in_grid = draw_grid(&shape, drawn * p, random, &vertex, &share, &taken);
     vuint cells[GRID_CELLS], cell;
     vfloat weights[GRID_CELLS];
-    grid_cells(&vertex, 1, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
+    grid_cells(&vertex, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
     const vfloat in_cell = draw_cell(cells, weights, in_grid, &cell);
 
     const angular_lattice lattice =
@@ -124,7 +124,7 @@ void JOIN(counting_drawn_, GLINT_LANES)(const counting_points *points, const uin
         const counting_pixel pixel = counting_pixel_of(points, i, &ellipse);
         const vfloat random = to_float((vint)(load_u(draw + i) >> 8)) * (1.0F / 16777216.0F);
         const vfloat f = drawn_factor(points, i, &ellipse, pixel.counted, random);
-        store_f(factor + i, choose(pixel.flat, splat(1.0F), f));
+        store_f(factor + i, choose(counting_is_flat(&pixel), splat(1.0F), f));
         store_f(facets + i, pixel.facets);
     }
 }

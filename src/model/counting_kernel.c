@@ -22,7 +22,7 @@ typedef struct grid_counts {
 
 /* All that comes before the first branch, for so many grids, 1 or all, known to the compiler. */
 static inline __attribute__((always_inline)) void prepare(const angular_lattice *lattice, const int grids,
-                                                          const vuint *cell, const vfloat *cell_weight,
+                                                          const vuint *cell, const vfloat *cell_weight, vfloat dither,
                                                           const binomial_chance *chance, const vfloat *trials,
                                                           grid_counts *c)
 {
@@ -35,8 +35,7 @@ static inline __attribute__((always_inline)) void prepare(const angular_lattice 
     angular_draws_of(lattice, grids, cell, cell_weight, hash, c->draws);
 #pragma GCC unroll 4
     for (int g = 0; g < grids; g++)
-        c->start[g] =
-            binomial_start_of(&c->law[g], chance, c->draws[g].uniform, c->draws[g].dither, realisations.draws);
+        c->start[g] = binomial_start_of(&c->law[g], chance, c->draws[g].uniform, dither, realisations.draws);
 }
 
 static inline vfloat count(const grid_counts *c, int g, const binomial_chance *chance)
@@ -55,7 +54,7 @@ static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloa
     grid_counts counts;
     for (int g = 0; g < GRID_COUNT; g++)
         trials[g] = drawn * grid->share[g];
-    prepare(&lattice, GRID_COUNT, grid->cell, grid->weight, &chance, trials, &counts);
+    prepare(&lattice, GRID_COUNT, grid->cell, grid->weight, angular_dither(grid->cell[0]), &chance, trials, &counts);
     for (int g = 0; g < GRID_COUNT; g++)
         sum = sum + count(&counts, g, &chance);
     return counting_factor(sum, drawn, p);
@@ -68,13 +67,14 @@ void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t s
 {
     for (size_t start = 0; start < size; start += COUNTING_BLOCK) {
         counting_block block;
-        counting_place(points, start, size, &block);
-        for (size_t k = 0, i = start; k < block.count; k++, i += GLINT_LANES) {
-            const counting_pixel *const pixel = &block.pixel[k];
-            const vfloat f = lit_factor(&block.grid[k], pixel->counted, load_f(points->hx + i), load_f(points->hy + i),
-                                        load_f(points->cap + i), load_f(points->p + i));
-            store_f(factor + i, choose(pixel->flat, splat(1.0F), f));
-            store_f(facets + i, pixel->facets);
+        const size_t vectors = counting_place(points, start, size, &block);
+        for (size_t k = 0, i = start; k < vectors; k++, i += GLINT_LANES) {
+            counting_spot room;
+            const counting_spot *const spot = counting_spot_at(points, i, k, &block, &room);
+            const vfloat f = lit_factor(&spot->grid, spot->pixel.counted, load_f(points->hx + i),
+                                        load_f(points->hy + i), load_f(points->cap + i), load_f(points->p + i));
+            store_f(factor + i, choose(counting_is_flat(&spot->pixel), splat(1.0F), f));
+            store_f(facets + i, spot->pixel.facets);
         }
     }
 }
@@ -89,7 +89,7 @@ void counting_alone(const counting_points *points, size_t size, float *factor, f
         const binomial_chance chance = binomial_chance_of(a.p);
         const vfloat trials = a.drawn * a.share;
         grid_counts own;
-        prepare(&a.lattice, 1, a.cell, a.weight, &chance, &trials, &own);
+        prepare(&a.lattice, 1, a.cell, a.weight, a.dither, &chance, &trials, &own);
         const vfloat counts = count(&own, 0, &chance);
         factor[i] = counting_together(&a, counting_factor(counting_across(counts), a.drawn, a.p));
         facets[i] = a.pixel.facets[0];

@@ -7,7 +7,7 @@
 
 #include "model/tint.h"
 
-/* Points as a structure of arrays. All values are finite; density, cap and p are >= 0. */
+/* Points and their lights as a structure of arrays. All values are finite; density, cap and p are >= 0. */
 typedef struct counting_points {
     const double *u, *v;                    /* metres, below 1e15 in size */
     const float *dudx, *dudy, *dvdx, *dvdy; /* metres per pixel, below 1e9 in size */
@@ -16,11 +16,15 @@ typedef struct counting_points {
     const float *hx, *hy;                   /* half vector, along and across the tangent */
     const float *cap;                       /* area of the lit cap, seen from above: its solid angle times h.z */
     const float *p;                         /* lit probability, at most 1 */
+    /* NULL: light i is at point i. Else it is at point place[i]; place begins with 0 and each is as the one before or
+     * one more, so that what is looked up for a point is looked up once for its lights. Arrays of points then go on to
+     * a multiple of the width. */
+    const uint32_t *place;
 } counting_points;
 
 /* factor = b(N', p) / (N' p), blended over grids and cells, 1 in the smooth limit; facets = N. N' is N for a pixel of
- * many facets, and one half for a pixel within one. count is a multiple of the width. Every width gives the same bits.
- */
+ * many facets, and one half for a pixel within one. count, of lights, is a multiple of the width. Every width gives
+ * the same bits. */
 typedef void counting_kernel(const counting_points *points, size_t count, float *factor, float *facets);
 
 counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;
@@ -35,8 +39,8 @@ typedef void counting_tinted(const counting_points *points, size_t count, const 
 counting_tinted counting_tinted_1, counting_tinted_4, counting_tinted_8, counting_tinted_16;
 counting_tinted counting_tinted_alone;
 
-/* counting_kernel with one realisation for all: draw, uniform in 32 bits, chooses. The mean over draws is the factor of
- * counting_kernel, but for 2^-24 of chance. */
+/* counting_kernel with one realisation for all, and without places: draw, uniform in 32 bits, chooses. The mean over
+ * draws is the factor of counting_kernel, but for 2^-24 of chance. */
 typedef void counting_drawn(const counting_points *points, const uint32_t *draw, size_t count, float *factor,
                             float *facets);
 

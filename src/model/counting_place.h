@@ -29,9 +29,14 @@
 
 /* What a pixel covers: facets of its own, and with those that a facet's size around it adds. */
 typedef struct counting_pixel {
-    vfloat facets, counted;
-    vmask flat; /* A pixel without area is a mistake or the limit of one; it shows no single facet. */
+    vfloat facets, counted, area;
 } counting_pixel;
+
+/* A pixel without area is a mistake or the limit of one; it shows no single facet. */
+static inline vmask counting_is_flat(const counting_pixel *pixel)
+{
+    return less(pixel->area, splat(LEAST_AREA));
+}
 
 static inline counting_pixel counting_pixel_of(const counting_points *points, size_t i, grid_ellipse *ellipse)
 {
@@ -40,48 +45,100 @@ static inline counting_pixel counting_pixel_of(const counting_points *points, si
     const vfloat area = grid_area(dudx, dudy, dvdx, dvdy);
     const vfloat density = max_f(load_f(points->density + i), splat(LEAST_DENSITY));
     *ellipse = grid_ellipse_of(dudx, dudy, dvdx, dvdy, area, FACET_SHARE / density);
-    return (counting_pixel){ area * density, ellipse->area * density, less(area, splat(LEAST_AREA)) };
+    return (counting_pixel){ area * density, ellipse->area * density, area };
 }
+
+/* All that is known of points before their lights are: vectors of numbers and nothing else. */
+typedef struct counting_spot {
+    counting_pixel pixel;
+    grid_point grid;
+} counting_spot;
 
 /* Points are placed in blocks, one pass after another: what a pass computes for one vector is a single long chain, and
  * a processor works at those of the next vectors meanwhile. */
 #define COUNTING_BLOCK 64
 
 typedef struct counting_block {
+    size_t first; /* point */
     size_t count; /* vectors */
-    counting_pixel pixel[COUNTING_BLOCK / GLINT_LANES];
-    grid_point grid[COUNTING_BLOCK / GLINT_LANES];
+    counting_spot spot[COUNTING_BLOCK / GLINT_LANES + 1];
 } counting_block;
 
-/* The block that begins with point `start` of `count`. */
-static inline void counting_place(const counting_points *points, size_t start, size_t count, counting_block *b)
+/* b->first and b->count are set. */
+static inline void counting_place_spots(const counting_points *points, counting_block *b)
 {
-    grid_vertex vertex[COUNTING_BLOCK / GLINT_LANES][GRID_COUNT];
-    const size_t left = count - start;
-    b->count = (left < COUNTING_BLOCK ? left : COUNTING_BLOCK) / GLINT_LANES;
-    grid_shape shape[COUNTING_BLOCK / GLINT_LANES];
+    grid_shape shape[COUNTING_BLOCK / GLINT_LANES + 1];
+    grid_simplex simplex[COUNTING_BLOCK / GLINT_LANES + 1];
     for (size_t k = 0; k < b->count; k++) {
         grid_ellipse ellipse;
-        b->pixel[k] = counting_pixel_of(points, start + GLINT_LANES * k, &ellipse);
+        b->spot[k].pixel = counting_pixel_of(points, b->first + GLINT_LANES * k, &ellipse);
         shape[k] = grid_shape_of(&ellipse);
     }
     for (size_t k = 0; k < b->count; k++)
-        grid_tetrahedron(&shape[k], vertex[k], b->grid[k].share);
+        grid_simplex_of(&shape[k], &simplex[k]);
     for (size_t k = 0; k < b->count; k++) {
-        const size_t i = start + GLINT_LANES * k;
-        const vdouble u = load_d(points->u + i), v = load_d(points->v + i);
-        const vuint seed = load_u(points->seed + i);
-        grid_cells(vertex[k], GRID_COUNT, u, v, seed, b->grid[k].cell, b->grid[k].weight);
+        const size_t i = b->first + GLINT_LANES * k;
+        grid_point_of(&simplex[k], load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i),
+                      &b->spot[k].grid);
     }
+}
+
+/* The block of entries that begins with `start` of `count`; returns how many vectors they are. */
+static inline size_t counting_place(const counting_points *points, size_t start, size_t count, counting_block *b)
+{
+    const size_t left = count - start, entries = left < COUNTING_BLOCK ? left : COUNTING_BLOCK;
+    b->first = start;
+    b->count = entries / GLINT_LANES;
+    if (points->place) {
+        b->first = points->place[start] / GLINT_LANES * GLINT_LANES;
+        b->count = (points->place[start + entries - 1] - b->first) / GLINT_LANES + 1;
+    }
+    counting_place_spots(points, b);
+    return entries / GLINT_LANES;
+}
+
+static inline vuint counting_vector_at(const counting_spot *spot, size_t byte)
+{
+    vuint v;
+    memcpy(&v, (const char *)spot + byte, sizeof(v));
+    return v;
+}
+
+/* The spots of the entries from i on, several of which may be at one point. They are in one vector of the block or in
+ * two that follow each other. */
+static inline void counting_gather_spots(const counting_points *points, size_t i, const counting_block *b,
+                                         counting_spot *to)
+{
+    const size_t k = (points->place[i] - b->first) / GLINT_LANES;
+    const counting_spot *const from = &b->spot[k];
+    const vint lane = (vint)(load_u(points->place + i) - (uint32_t)(b->first + GLINT_LANES * k));
+    const vmask is_next = less_i(splat_i(GLINT_LANES - 1), lane);
+    const int has_next = any(is_next);
+    for (size_t byte = 0; byte < sizeof(*to); byte += sizeof(vuint)) {
+        vuint picked = pick_u(counting_vector_at(from, byte), lane);
+        if (has_next)
+            picked = choose_u(is_next, pick_u(counting_vector_at(from + 1, byte), lane), picked);
+        memcpy((char *)to + byte, &picked, sizeof(picked));
+    }
+}
+
+/* Those of vector k of the block, whose first entry is i; *room: where they may be gathered. */
+static inline const counting_spot *counting_spot_at(const counting_points *points, size_t i, size_t k,
+                                                    const counting_block *b, counting_spot *room)
+{
+    if (!points->place)
+        return &b->spot[k];
+    counting_gather_spots(points, i, b, room);
+    return room;
 }
 
 /* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
 #define ANGULAR_LEVELS 14
 
 typedef struct angular_lattice {
-    vint x, y;     /* h in units of 2^-16 cells of the finer level */
-    vuint number;  /* of the finer level */
-    vuint coarser; /* chance, of 2^16, that a cell uses the next coarser level */
+    vuint x; /* h in units of 2^-16 cells of the finer level */
+    vint y;
+    vint coarser; /* below it a uniform of 32 bits chooses the next coarser level */
 } angular_lattice;
 
 /* A facet stays lit while h is within the cap, so a cell has the cap's area. Levels are powers of two; each cell of the
@@ -93,9 +150,9 @@ static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
     angular_lattice l;
     const vint level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
     const vfloat scale = exp2_i(level);
-    l.number = (vuint)level * HASH_Z;
-    l.coarser = (vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F));
-    l.x = to_int(hx * scale * 65536.0F);
+    l.coarser = (vint)((vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F)) << 16 ^ 0x80000000U);
+    /* Two units of h further on: so where two levels have corners of the same numbers, h is far from each other. */
+    l.x = (vuint)to_int(hx * scale * 65536.0F) + ((vuint)to_int(scale) << 17);
     l.y = to_int(hy * scale * 65536.0F);
     return l;
 }
@@ -105,28 +162,25 @@ static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
 
 /* Where h is in the lattice of one surface cell, in units of 2^-16. */
 typedef struct angular_place {
-    vint x, y;
-    vuint number; /* of the level that the cell uses */
+    vuint x;
+    vint y;
 } angular_place;
 
 static inline angular_place angular_place_of(const angular_lattice *l, vuint cell)
 {
-    /* The cell is a full hash: the top bits of a product are another one. */
-    const vmask coarse = less_i((vint)(cell * HASH_TOP >> 16), (vint)l->coarser);
-    angular_place p;
-    /* Counted from h = 0, so that the coarser lattice of one level is the finer one of the next: when the cap passes a
-     * power of four, corners keep their numbers. */
-    p.x = choose_i(coarse, l->x >> 1, l->x) + (vint)(cell & 0xffffU);
-    p.y = choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16);
-    p.number = choose_u(coarse, l->number - HASH_Z, l->number);
-    return p;
+    /* The cell is a full hash. What chooses the level begins with bits that move its lattice by less than 2^-8. */
+    const vmask coarse = less_i((vint)(cell << 8), l->coarser);
+    /* Halved from level to level, so that the coarser lattice of one level is the finer one of the next: when the cap
+     * passes a power of four, corners keep their numbers. */
+    return (angular_place){ choose_u(coarse, l->x >> 1, l->x) + (cell & 0xffffU),
+                            choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16) };
 }
 
 /* Uniforms and weights of the four corners around it. hash: the last factor of their hash, HASH_TOP. */
 static inline void angular_corners(const angular_place *p, vuint cell, vfloat cell_weight, vuint hash, vint uniform[4],
                                    vfloat weight[4])
 {
-    const vfloat fx = to_float(p->x & 0xffff), fy = to_float(p->y & 0xffff);
+    const vfloat fx = to_float((vint)(p->x & 0xffffU)), fy = to_float(p->y & 0xffff);
     const vfloat gx = 65536.0F - fx;
     const vfloat up = cell_weight * fy, down = cell_weight * (65536.0F - fy);
     weight[0] = gx * down;
@@ -134,14 +188,14 @@ static inline void angular_corners(const angular_place *p, vuint cell, vfloat ce
     weight[2] = gx * up;
     weight[3] = fx * up;
 
-    const vuint corner = (cell + (vuint)(p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y + p->number;
+    const vuint corner = (cell + (p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y;
     uniform[0] = (vint)hash_top(corner, hash);
     uniform[1] = (vint)hash_top(corner + HASH_X, hash);
     uniform[2] = (vint)hash_top(corner + HASH_Y, hash);
     uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y), hash);
 }
 
-/* What binomial_start_of adds to a chance, from a cell. */
+/* What binomial_start_of adds to a chance, from any cell. */
 static inline vfloat angular_dither(vuint cell)
 {
     return to_float((vint)(cell * HASH_X >> 16)) * (1.0F / 65536.0F);
@@ -151,7 +205,6 @@ static inline vfloat angular_dither(vuint cell)
 typedef struct angular_draws {
     vint uniform[4 * GRID_CELLS];
     vfloat weight[4 * GRID_CELLS];
-    vfloat dither;
 } angular_draws;
 
 /* Those of so many grids, 1 or all, known to the compiler. hash: for each grid, as for the corners. In steps, as
@@ -172,7 +225,6 @@ static inline __attribute__((always_inline)) void angular_draws_of(const angular
             angular_corners(&place[i], cell[i], cell_weight[i], hash[g], draws[g].uniform + 4 * c,
                             draws[g].weight + 4 * c);
         }
-        draws[g].dither = angular_dither(cell[GRID_CELLS * g]);
     }
 }
 
@@ -205,22 +257,23 @@ typedef struct counting_copies {
 
 static inline counting_points counting_copy(const counting_points *from, size_t i, counting_copies *to)
 {
+    const size_t place = from->place ? from->place[i] : i;
     for (int g = 0; g < GRID_COUNT; g++) {
-        to->u[g] = from->u[i];
-        to->v[g] = from->v[i];
-        to->dudx[g] = from->dudx[i];
-        to->dudy[g] = from->dudy[i];
-        to->dvdx[g] = from->dvdx[i];
-        to->dvdy[g] = from->dvdy[i];
-        to->density[g] = from->density[i];
+        to->u[g] = from->u[place];
+        to->v[g] = from->v[place];
+        to->dudx[g] = from->dudx[place];
+        to->dudy[g] = from->dudy[place];
+        to->dvdx[g] = from->dvdx[place];
+        to->dvdy[g] = from->dvdy[place];
+        to->density[g] = from->density[place];
         to->hx[g] = from->hx[i];
         to->hy[g] = from->hy[i];
         to->cap[g] = from->cap[i];
         to->p[g] = from->p[i];
-        to->seed[g] = from->seed[i];
+        to->seed[g] = from->seed[place];
     }
-    return (counting_points){ to->u,       to->v,    to->dudx, to->dudy, to->dvdx, to->dvdy,
-                              to->density, to->seed, to->hx,   to->hy,   to->cap,  to->p };
+    return (counting_points){ to->u,    to->v,  to->dudx, to->dudy, to->dvdx, to->dvdy, to->density,
+                              to->seed, to->hx, to->hy,   to->cap,  to->p,    NULL };
 }
 
 /* What a point is to its four grids, grid g in lane g. */
@@ -230,6 +283,7 @@ typedef struct counting_apart {
     vuint cell[GRID_CELLS];
     vfloat weight[GRID_CELLS];
     vfloat drawn, share, p; /* drawn: for all grids; share: the grid's part of it */
+    vfloat dither;          /* of the first grid */
 } counting_apart;
 
 static inline void counting_take_apart(const counting_points *points, size_t i, counting_apart *a)
@@ -250,15 +304,16 @@ static inline void counting_take_apart(const counting_points *points, size_t i, 
         own.level[g] = all[g].level[g];
         a->share[g] = shares[g][g];
     }
-    grid_cells(&own, 1, load_d(same.u), load_d(same.v), load_u(same.seed), a->cell, a->weight);
+    grid_cells(&own, load_d(same.u), load_d(same.v), load_u(same.seed), a->cell, a->weight);
     a->lattice = angular_locate(load_f(same.hx), load_f(same.hy), load_f(same.cap));
     a->drawn = counting_drawn_from(a->pixel.counted);
     a->p = load_f(same.p);
+    a->dither = splat(angular_dither(a->cell[0])[0]);
 }
 
 static inline float counting_together(const counting_apart *a, vfloat factor)
 {
-    return choose(a->pixel.flat, splat(1.0F), factor)[0];
+    return choose(counting_is_flat(&a->pixel), splat(1.0F), factor)[0];
 }
 
 /* The sum over the grids, in their order, in every lane. */

@@ -41,14 +41,14 @@ static void add_tints(const tint_palette *palette, const vuint *cell, const vint
 
 /* The twelve realisations of one grid: what they count, and what their tints add to it. */
 static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_CELLS],
-                         const vfloat cell_weight[GRID_CELLS], const binomial_chance *chance, vfloat trials,
-                         const tint_palette *palette, vfloat tints[3])
+                         const vfloat cell_weight[GRID_CELLS], vfloat dither, const binomial_chance *chance,
+                         vfloat trials, const tint_palette *palette, vfloat tints[3])
 {
     const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
     angular_draws d;
     vfloat count[12];
     angular_draws_of(lattice, 1, cell, cell_weight, &hash, &d);
-    const vfloat sum = binomial_weighted_sum(trials, chance, d.uniform, d.weight, d.dither, count,
+    const vfloat sum = binomial_weighted_sum(trials, chance, d.uniform, d.weight, dither, count,
                                              (binomial_many){ 4 * GRID_CELLS, CORNER_SCALE });
     const vmask sure = less_equal(splat(1.0F), chance->given);
     for (int i = 0; i < 12; i++)
@@ -78,8 +78,8 @@ static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat
     vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
     for (int g = 0; g < GRID_COUNT; g++) {
         vfloat of_grid[3];
-        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g, &chance,
-                               drawn * grid->share[g], palette, of_grid);
+        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g,
+                               angular_dither(grid->cell[0]), &chance, drawn * grid->share[g], palette, of_grid);
         for (int c = 0; c < 3; c++)
             tints[c] = tints[c] + of_grid[c];
     }
@@ -95,15 +95,16 @@ void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t c
 {
     for (size_t start = 0; start < count; start += COUNTING_BLOCK) {
         counting_block block;
-        counting_place(points, start, count, &block);
-        for (size_t k = 0, i = start; k < block.count; k++, i += GLINT_LANES) {
-            const counting_pixel *const pixel = &block.pixel[k];
+        const size_t vectors = counting_place(points, start, count, &block);
+        for (size_t k = 0, i = start; k < vectors; k++, i += GLINT_LANES) {
+            counting_spot room;
+            const counting_spot *const spot = counting_spot_at(points, i, k, &block, &room);
             vfloat f[3];
-            lit_factors(&block.grid[k], pixel->counted, load_f(points->hx + i), load_f(points->hy + i),
+            lit_factors(&spot->grid, spot->pixel.counted, load_f(points->hx + i), load_f(points->hy + i),
                         load_f(points->cap + i), load_f(points->p + i), palette, f);
             for (int c = 0; c < 3; c++)
-                store_f(factor[c] + i, choose(pixel->flat, splat(1.0F), f[c]));
-            store_f(facets + i, pixel->facets);
+                store_f(factor[c] + i, choose(counting_is_flat(&spot->pixel), splat(1.0F), f[c]));
+            store_f(facets + i, spot->pixel.facets);
         }
     }
 }
@@ -118,7 +119,8 @@ void counting_tinted_alone(const counting_points *points, size_t count, const ti
         counting_take_apart(points, i, &a);
         vfloat tints[3];
         const binomial_chance chance = binomial_chance_of(a.p);
-        const vfloat counts = count_grid(&a.lattice, a.cell, a.weight, &chance, a.drawn * a.share, palette, tints);
+        const vfloat counts =
+            count_grid(&a.lattice, a.cell, a.weight, a.dither, &chance, a.drawn * a.share, palette, tints);
         for (int c = 0; c < 3; c++)
             factor[c][i] =
                 counting_together(&a, tinted_factor(counting_across(counts), counting_across(tints[c]), a.drawn, a.p));

@@ -37,6 +37,41 @@ static double weighted_mean(const workload *w)
     return sum / weight;
 }
 
+/* Four lights at each point, apart and together, at each width: what another light costs is the rest of four. */
+static void race_lights(FILE *json, int rounds)
+{
+    static const char *const names[4] = { "8 lanes, apart", "8 lanes, together", "16 lanes, apart",
+                                          "16 lanes, together" };
+    enum { LIGHTS = 4 };
+    static workload works[2];
+    racer racers[4];
+    runner runners[4];
+    race_result result[4];
+    const size_t widest = counting_widest(16).lanes, count = widest == 16 ? 4 : widest == 8 ? 2 : 0;
+    for (int i = 0; i < 2; i++) {
+        workload_fill(&works[i], &workload_kinds[0]);
+        workload_add_lights(&works[i], LIGHTS, i);
+    }
+    for (size_t i = 0; i < count; i++) {
+        runners[i] = (runner){ counting_widest(i < 2 ? 8 : 16).kernel, &works[i % 2] };
+        racers[i] = (racer){ names[i], run, &runners[i] };
+        run(&runners[i]);
+    }
+    for (int i = 0; i < WORKLOAD_POINTS; i++)
+        if (works[0].factor[i] != works[1].factor[i]) {
+            fprintf(stderr, "bench: lights together have other values than apart\n");
+            exit(1);
+        }
+    if (count > 0)
+        race(racers, count, WORKLOAD_POINTS, rounds, result);
+    race_print("four lights a point", racers, count, result);
+    race_write(json, "four lights a point", racers, count, result);
+    for (size_t i = 0; i < count; i += 2)
+        printf("  another light over the first, %.2s lanes: %.2f\n", names[i],
+               (LIGHTS * result[i + 1].median_ns / result[i].median_ns - 1.0) / (LIGHTS - 1));
+    printf("\n");
+}
+
 /* False: the machine has no such width. */
 static int run_alone(const char *lanes, int thousands)
 {
@@ -98,7 +133,7 @@ int main(int argc, char **argv)
         race(racers, count, WORKLOAD_POINTS, rounds, result);
         race_print(work.name, racers, count, result);
         race_write(json, work.name, racers, count, result);
-        fprintf(json, k + 1 < WORKLOAD_KINDS ? ",\n" : "\n}\n");
+        fprintf(json, ",\n");
         printf("  mean of b / (N p):");
         for (size_t i = 0; i < count; i++) {
             run(&runners[i]);
@@ -106,5 +141,7 @@ int main(int argc, char **argv)
         }
         printf("\n\n");
     }
+    race_lights(json, rounds);
+    fprintf(json, "\n}\n");
     return fclose(json) != 0;
 }

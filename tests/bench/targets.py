@@ -34,6 +34,12 @@ def quotient(document, table, above, below):
     return a / b if a and b else None
 
 
+def another_light(document, lanes):
+    """Over the first, from four at a point: (4 together / apart - 1) / 3."""
+    each = quotient(document, "four lights a point", f"{lanes} lanes, together", f"{lanes} lanes, apart")
+    return (4.0 * each - 1.0) / 3.0 if each else None
+
+
 def table_mib(library):
     """Constants, as the linker lays them out."""
     sizes = subprocess.run(["size", "-A", library], check=True, capture_output=True, text=True).stdout
@@ -75,6 +81,8 @@ def gather(folder, library, glint):
     rows = [
         ("counting kernel, AVX-512, times the published method", 40.0, False, row_of(kernel, mix, "ours, 16 lanes", "faster")),
         ("counting kernel, AVX2, times the published method", 25.0, False, row_of(kernel, mix, "ours, 8 lanes", "faster")),
+        ("another light at a point over the first, 16 lanes", 0.55, True, another_light(kernel, 16)),
+        ("another light at a point over the first, 8 lanes", 0.55, True, another_light(kernel, 8)),
         ("counting point over smooth point, both in batches", 10.0, True, quotient(evaluations, eval_table, "counting", "smooth")),
         ("rectangle over light of a direction, counting", 1.5, True,
          quotient(evaluations, eval_table, "counting, rectangle", "counting")),

@@ -47,3 +47,30 @@ void workload_fill(workload *w, const workload_kind *kind)
         w->seed[i] = 7U;
     }
 }
+
+static void copy_point(workload *w, int to, int from)
+{
+    w->u[to] = w->u[from];
+    w->v[to] = w->v[from];
+    w->dudx[to] = w->dudx[from];
+    w->dudy[to] = w->dudy[from];
+    w->dvdx[to] = w->dvdx[from];
+    w->dvdy[to] = w->dvdy[from];
+    w->density[to] = w->density[from];
+}
+
+void workload_add_lights(workload *w, int each, int share)
+{
+    /* From the last on: what is copied lies before what it is copied to. */
+    for (int i = WORKLOAD_POINTS - 1; i >= 0; i--) {
+        const int from = i / each, light = i % each;
+        if (!share)
+            copy_point(w, i, from);
+        w->place[i] = (uint32_t)from;
+        w->hx[i] = w->hx[from] + 0.11F * (float)light;
+        w->hy[i] = w->hy[from] - 0.07F * (float)light;
+        w->cap[i] = w->cap[from];
+        w->p[i] = w->p[from];
+    }
+    w->points.place = share ? w->place : NULL;
+}

@@ -12,7 +12,7 @@ typedef struct workload {
     double u[WORKLOAD_POINTS], v[WORKLOAD_POINTS];
     float dudx[WORKLOAD_POINTS], dudy[WORKLOAD_POINTS], dvdx[WORKLOAD_POINTS], dvdy[WORKLOAD_POINTS];
     float density[WORKLOAD_POINTS], hx[WORKLOAD_POINTS], hy[WORKLOAD_POINTS], cap[WORKLOAD_POINTS], p[WORKLOAD_POINTS];
-    uint32_t seed[WORKLOAD_POINTS];
+    uint32_t seed[WORKLOAD_POINTS], place[WORKLOAD_POINTS];
     float factor[WORKLOAD_POINTS], facets[WORKLOAD_POINTS]; /* room for what comes out */
 } workload;
 
@@ -28,5 +28,8 @@ enum { WORKLOAD_KINDS = 4 };
 extern const workload_kind workload_kinds[WORKLOAD_KINDS];
 
 void workload_fill(workload *w, const workload_kind *kind);
+/* Makes it WORKLOAD_POINTS lights, so many at each of the first points. They share the points, or each is at a point of
+ * its own that is like the others'. */
+void workload_add_lights(workload *w, int each, int share);
 
 #endif

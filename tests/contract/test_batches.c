@@ -40,6 +40,24 @@ static void fill(batch_arrays *a, const glint_material *m, uint64_t *random)
     }
 }
 
+/* Every second entry and more of them are another light at the point before; one in eleven has as many facets as it
+ * had.
+ */
+static void put_together(batch_arrays *a, uint64_t *random)
+{
+    for (int i = 1; i < BATCH; i++) {
+        if (random_bits(random) % 8 < 3)
+            continue;
+        a->u[i] = a->u[i - 1];
+        a->v[i] = a->v[i - 1];
+        for (int k = 0; k < 4; k++)
+            a->jacobian[k][i] = a->jacobian[k][i - 1];
+        a->seed[i] = a->seed[i - 1];
+        if (i % 11 != 0)
+            a->surface[i].facets_per_m2 = a->surface[i - 1].facets_per_m2;
+    }
+}
+
 static glint_batch batch_of(batch_arrays *a, int with_surfaces)
 {
     glint_batch b = GLINT_BATCH_INIT;
@@ -68,8 +86,11 @@ static void batch_gives_the_bits_of_single_calls(void **state)
     static glint_value values[BATCH];
     uint64_t random = 6;
     FOR_EACH_CONFIGURATION(c, m, row)
-    for (int with_surfaces = 0; with_surfaces < 2; with_surfaces++) {
+    for (int kind = 0; kind < 3; kind++) {
+        const int with_surfaces = kind > 0;
         fill(&a, m, &random);
+        if (kind == 2)
+            put_together(&a, &random);
         glint_batch b = batch_of(&a, with_surfaces);
         b.values = values;
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);

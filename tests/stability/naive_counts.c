@@ -10,12 +10,12 @@
 static double any_lit(float trials, float p)
 {
     const binomial_chance c = binomial_chance_of(p);
-    float em1, mass;
-    exp_both(floorf(trials) * c.log_miss, &em1, &mass);
-    const float survival = -em1 + (trials - floorf(trials)) * p * mass;
+    float missing, mass;
+    exp_both(floorf(trials) * c.log_miss, BINOMIAL_SCALE_LOG2, &missing, &mass);
+    const float survival = missing + (trials - floorf(trials)) * p * mass;
     double sum = 0.0;
     for (int k = 0; k < 65536; k++)
-        sum += ((double)binomial_threshold(survival * BINOMIAL_SCALE + (float)k * 0x1p-16F) + 2147483648.0) * 0x1p-32;
+        sum += ((double)binomial_threshold(survival + (float)k * 0x1p-16F) + 2147483648.0) * 0x1p-32;
     return sum / 65536.0;
 }
 

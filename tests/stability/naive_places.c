@@ -38,10 +38,11 @@ static void no_cell(void)
     /* Just below a power of two, so that the sum has half of the digits that x has. */
     const double x = 0x1p58 - 96.0, nearest = (x + 6755399441055744.0) - 6755399441055744.0;
     vuint low;
-    naive_print(&(naive_row){
-        "weight of a cell that has no number any more, 2⁵⁸ cells out", "x - ⌊x⌋ with ⌊x⌋ by adding 1.5·2⁵²",
-        x - (x < nearest ? nearest - 1.0 : nearest), ANY_WEIGHT, (double)grid_fraction(x, &low),
-        "kept in [0, 1]: weights add up to 1, and the mean stays", "mean exact", "counting_edges" });
+    naive_print(&(naive_row){ "weight of a cell that has no number any more, 2⁵⁸ cells out",
+                              "x - ⌊x⌋ with ⌊x⌋ by adding 1.5·2⁵²", x - (x < nearest ? nearest - 1.0 : nearest),
+                              ANY_WEIGHT, (double)grid_fraction(x, &low),
+                              "⌊x⌋ of a double is exact: weights in [0, 1] that add up to 1, and the mean stays",
+                              "mean exact", "counting_edges" });
 }
 
 static void add_share(int64_t x, int64_t y, double share, void *user)

@@ -250,6 +250,50 @@ static void one_white_color_gives_the_bits_of_the_plain_kernel(void **state)
     }
 }
 
+/* Every width, for one light or several a point, in runs that begin and end anywhere in a vector. */
+static void lights_of_a_point_have_the_bits_of_points_alone(void **state)
+{
+    (void)state;
+    uint64_t random = 31;
+    static float alone[COUNT], facets[COUNT], factor[COUNT], other[COUNT], tinted[3][COUNT];
+    static double far[2][COUNT];
+    static float near[5][COUNT];
+    static uint32_t place[COUNT], seed[COUNT];
+    float *const to_tinted[3] = { tinted[0], tinted[1], tinted[2] };
+    const tint_palette white = palette_of(0, 0.0F);
+    for (uint32_t most = 1; most <= 12; most++) {
+        fill(&random);
+        for (int i = 1; i < COUNT; i++)
+            place[i] = place[i - 1] + (random_bits(&random) % most == 0);
+        for (int i = 0; i < COUNT; i++) {
+            far[0][i] = a.u[place[i]];
+            far[1][i] = a.v[place[i]];
+            near[0][i] = a.dudx[place[i]];
+            near[1][i] = a.dudy[place[i]];
+            near[2][i] = a.dvdx[place[i]];
+            near[3][i] = a.dvdy[place[i]];
+            near[4][i] = a.density[place[i]];
+            seed[i] = a.seed[place[i]];
+        }
+        const counting_points apart = { far[0],  far[1], near[0], near[1], near[2], near[3],
+                                        near[4], seed,   a.hx,    a.hy,    a.cap,   a.p };
+        counting_points together = points;
+        together.place = place;
+        counting_kernel_1(&apart, COUNT, alone, facets);
+        for (size_t lanes = 1; lanes <= 16; lanes *= 2) {
+            const counting_width width = counting_widest(lanes);
+            width.kernel(&together, COUNT, factor, other);
+            assert_memory_equal(factor, alone, sizeof(factor));
+            assert_memory_equal(other, facets, sizeof(other));
+            width.tinted(&together, COUNT, &white, to_tinted, other);
+            for (int c = 0; c < 3; c++)
+                assert_memory_equal(tinted[c], alone, sizeof(alone));
+        }
+        counting_narrowest().kernel(&together, COUNT, factor, other);
+        assert_memory_equal(factor, alone, sizeof(factor));
+    }
+}
+
 /* The hues of a facet add up to white, so the mean of the channels is what it was without them. */
 static void hues_leave_the_mean_of_the_channels(void **state)
 {
@@ -477,6 +521,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_width_gives_the_same_bits),
+        cmocka_unit_test(lights_of_a_point_have_the_bits_of_points_alone),
         cmocka_unit_test(every_width_draws_the_same_realisation),
         cmocka_unit_test(mean_over_draws_is_the_whole_sum),
         cmocka_unit_test(drawing_varies_as_its_bound_says),
