@@ -138,7 +138,7 @@ static void add_light(const world *w, const hit *h, light_query *q, const trace_
                       radiance *sum, direct_facets *facets, ray_counts *counts)
 {
     shade_query *const s = &q->shade;
-    bool dark[AREA_MOST_RAYS];
+    bool dark[AREA_MOST_RAYS] = { false };
     for (int i = 0; i < q->shadow.ray_count; ++i)
         dark[i] = trace_occluded(w->trace, &rays[i]);
     if (!is_lit(w, h, q, rays, dark))
