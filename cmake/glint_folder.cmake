@@ -16,7 +16,8 @@ target_link_options(glint_flags INTERFACE $<$<BOOL:${GLINT_COVERAGE}>:--coverage
 if(GLINT_SANITIZE)
   target_compile_options(glint_flags INTERFACE -fsanitize=${GLINT_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
-  target_link_options(glint_flags INTERFACE -fsanitize=${GLINT_SANITIZE})
+  # RPATH for RUNPATH: dlopen is the sanitizer's own, and where that may look only the program can say.
+  target_link_options(glint_flags INTERFACE -fsanitize=${GLINT_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
 # glint_view(<folder>): a directory that holds nothing but a link to src/<folder>, or to exporters. On the include path it

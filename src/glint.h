@@ -498,6 +498,9 @@ typedef struct glint_plan_light {
 typedef struct glint_plan_pair {
     uint32_t material, light;
     float seen;                   /* evaluations per sample */
+    float part;                   /* mean over all pixels of the square of this light's part of the pixel */
+    float sparks;                 /* and of the variance of its lit facets, light^2 / (N p), over the mean square of the
+                                     picture's light, facets and all; 0 where no facets are counted */
     float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
                                      this light's part of the pixel; 0 where no facets are counted */
     float rate[GLINT_PLAN_BINS];  /* and how many evaluations per sample there are */
@@ -509,21 +512,25 @@ typedef struct glint_plan_summary {
     const glint_plan_light *lights;
     const glint_plan_pair *pairs;
     uint32_t material_count, light_count, pair_count;
-    uint32_t samples_per_pixel; /* >= 1 */
+    uint32_t samples_per_pixel; /* >= 1; the fewest, where the plan chooses */
+    uint32_t most_samples;      /* the plan chooses a power of two up to this; 0: samples_per_pixel are taken */
     uint32_t tiles_per_pixel;   /* >= 1: a pixel's facets are counted in so many footprints side by side */
     uint32_t pixel_count;       /* that were looked at */
     uint32_t bounces;           /* of indirect light that are asked for */
     float bounce_rays;          /* per sample */
     float sky_rays;             /* per sample: without bounces, for what surrounds the scene */
     float bounced;              /* what they bring to a pixel, relative */
-    float noise;                /* relative standard deviation of one sample, but for facets */
+    float noise;                /* relative standard deviation of a pixel of noise_samples samples */
+    uint32_t noise_samples;     /* >= 1 */
+    float noise_fall;           /* noise^2 falls as samples^-noise_fall: [1, 3], 1 where samples are independent */
+    float noise_spread;         /* standard error of noise^2, relative; kept clear of where the plan chooses */
     float error_budget;         /* (0, 1]; 0: nothing may be left out */
     glint_allocator allocator;  /* all NULL: malloc and free */
 } glint_plan_summary;
 
 #define GLINT_PLAN_SUMMARY_INIT                                                                                        \
     {                                                                                                                  \
-        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.0F, 0.02F,                     \
+        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 0, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.0F, 1, 1.0F, 0.0F, 0.02F,   \
         {                                                                                                              \
             0, 0, 0                                                                                                    \
         }                                                                                                              \
@@ -578,6 +585,7 @@ typedef struct glint_plan_outcome {
     float ns_per_sample;     /* of one core, by the table */
     uint32_t is_met;         /* error and noise together are within the budget */
     uint32_t bounces;        /* to be traced */
+    uint32_t samples;        /* per pixel, to be taken */
     uint32_t enough_samples; /* per pixel, for the noise to be within what the error leaves; 0: no number is */
 } glint_plan_outcome;
 

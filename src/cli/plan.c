@@ -41,6 +41,7 @@ document *plan_document(const glint_plan *plan, const scene *s)
     document_set_boolean(o, "met", out.is_met != 0);
     document_set_integer(o, "enough_samples", out.enough_samples);
     document_set_number(o, "ns_per_sample", (double)out.ns_per_sample);
+    document_set_integer(o, "samples", out.samples);
     document_set_integer(o, "bounces", out.bounces);
     for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i)
         document_append(list, decision_document(glint_plan_decision(plan, i), s));
@@ -57,9 +58,9 @@ void plan_warn(const glint_plan *plan, double budget, report *r)
         return;
     if (out.enough_samples > 0)
         report_warning(r,
-                       "--accuracy %g is not met: the samples leave noise of about %.2g, what is left out adds %.2g; "
-                       "--spp %u would do",
-                       budget, (double)out.noise, (double)out.error, out.enough_samples);
+                       "--accuracy %g is not met: %u samples a pixel leave noise of about %.2g, what is left out adds "
+                       "%.2g; --spp %u would do",
+                       budget, out.samples, (double)out.noise, (double)out.error, out.enough_samples);
     else
         report_warning(r, "--accuracy %g is not met: what is left out comes to %.2g", budget, (double)out.error);
 }
@@ -70,7 +71,7 @@ static int print_plan_document(const glint_plan *plan, const scene *s, const cha
     document *const o = document_object();
     document_set_text(o, "file", path);
     document_set_number(o, "accuracy", render_accuracy(v));
-    document_set_integer(o, "spp", (uint64_t)v->spp);
+    document_set_integer(o, "spp", glint_plan_result(plan).samples);
     document_set(o, "plan", plan_document(plan, s));
     document_set(o, "warnings", warnings);
     return print_document(o);

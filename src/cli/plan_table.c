@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- cells ---- */
@@ -60,67 +61,101 @@ static bool is_shown(const glint_decision *d)
     return d->is_on || d->error > 0.0F || d->effect == GLINT_EFFECT_FACETS || d->effect == GLINT_EFFECT_BOUNCES;
 }
 
-static bool is_alike(const glint_decision *a, const glint_decision *b)
+/* A decision, and where it stands among all. */
+typedef struct entry {
+    const glint_decision *decision;
+    uint32_t index;
+    uint32_t leader; /* of the first that says the same: rows come in that order */
+} entry;
+
+/* By material, and there those together that say the same. */
+static int compare_sayings(const entry *a, const entry *b)
 {
-    return a->material == b->material && a->effect == b->effect && strcmp(a->choice, b->choice) == 0;
+    const glint_decision *const x = a->decision, *const y = b->decision;
+    if (x->material != y->material)
+        return (x->material > y->material) - (x->material < y->material);
+    if (x->effect != y->effect)
+        return (x->effect > y->effect) - (x->effect < y->effect);
+    return strcmp(x->choice, y->choice);
 }
 
-static bool is_first_of_its_kind(const glint_plan *plan, uint32_t index)
+static int compare_entries(const void *a, const void *b)
 {
-    for (uint32_t i = 0; i < index; ++i)
-        if (is_alike(glint_plan_decision(plan, i), glint_plan_decision(plan, index)))
-            return false;
-    return true;
+    const entry *const x = a, *const y = b;
+    const int order = compare_sayings(x, y);
+    return order != 0 ? order : (x->index > y->index) - (x->index < y->index);
 }
 
-static void print_alike(const glint_plan *plan, uint32_t first)
+/* By material, and there as the plan has them. */
+static int compare_rows(const void *a, const void *b)
 {
-    const glint_decision *dearest = glint_plan_decision(plan, first);
+    const entry *const x = a, *const y = b;
+    if (x->decision->material != y->decision->material)
+        return (x->decision->material > y->decision->material) - (x->decision->material < y->decision->material);
+    if (x->leader != y->leader)
+        return (x->leader > y->leader) - (x->leader < y->leader);
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+/* What is shown, row by row. NULL: there is no memory. */
+static entry *sort_shown(const glint_plan *plan, uint32_t *count)
+{
+    const uint32_t all = glint_plan_decision_count(plan);
+    entry *const list = malloc((all > 0 ? all : 1U) * sizeof *list);
+    *count = 0;
+    for (uint32_t i = 0; list != NULL && i < all; ++i)
+        if (is_shown(glint_plan_decision(plan, i)))
+            list[(*count)++] = (entry){ glint_plan_decision(plan, i), i, i };
+    if (list == NULL)
+        return NULL;
+    qsort(list, *count, sizeof *list, compare_entries);
+    for (uint32_t i = 1; i < *count; ++i)
+        if (compare_sayings(&list[i - 1], &list[i]) == 0)
+            list[i].leader = list[i - 1].leader;
+    qsort(list, *count, sizeof *list, compare_rows);
+    return list;
+}
+
+/* Decisions that say the same, as one row. Returns how many they are. */
+static uint32_t print_alike(const entry *first, uint32_t most)
+{
+    const glint_decision *dearest = first->decision;
     double time = 0.0, variance = 0.0;
-    int count = 0;
-    for (uint32_t i = first; i < glint_plan_decision_count(plan); ++i) {
-        const glint_decision *const d = glint_plan_decision(plan, i);
-        if (!is_alike(d, dearest))
-            continue;
+    uint32_t count = 0;
+    for (; count < most && first[count].leader == first->leader; ++count) {
+        const glint_decision *const d = first[count].decision;
         if (d->ns_per_sample > dearest->ns_per_sample)
             dearest = d;
         time += (double)d->time_share;
         variance += (double)d->error * (double)d->error;
-        ++count;
     }
     print_row(glint_effect_name(dearest->effect), dearest->choice, time, sqrt(variance), dearest->reason);
     if (count > 1)
-        printf("; %d more light%s like it", count - 1, count > 2 ? "s" : "");
+        printf("; %u more light%s like it", count - 1, count > 2 ? "s" : "");
     putchar('\n');
-}
-
-static int count_shown(const glint_plan *plan, int32_t material)
-{
-    int count = 0;
-    for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i) {
-        const glint_decision *const d = glint_plan_decision(plan, i);
-        count += d->material == material && is_shown(d);
-    }
     return count;
 }
 
-static void print_group(const glint_plan *plan, int32_t material)
+/* The rows of one material, from its first decision on; -1: of the picture. Returns the place behind them. */
+static uint32_t print_group(const entry *list, uint32_t count, uint32_t at, int32_t material)
 {
-    for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i) {
-        const glint_decision *const d = glint_plan_decision(plan, i);
-        if (d->material == material && is_shown(d) && is_first_of_its_kind(plan, i))
-            print_alike(plan, i);
-    }
+    while (at < count && list[at].decision->material == material)
+        at += print_alike(&list[at], count - at);
+    return at;
 }
 
 /* ---- what is not there ---- */
 
-static void print_plain(const glint_plan *plan, const scene *s)
+static void print_plain(const entry *list, uint32_t entry_count, const scene *s)
 {
     int count = 0;
-    for (int32_t m = 0; m < s->material_count; ++m)
-        if (count_shown(plan, m) == 0)
+    uint32_t at = 0;
+    for (int32_t m = 0; m < s->material_count; ++m) {
+        while (at < entry_count && list[at].decision->material < m)
+            ++at;
+        if (at == entry_count || list[at].decision->material != m)
             printf("%s%s", count++ == 0 ? "nothing but a surface: " : ", ", material_name(s, m));
+    }
     if (count > 0)
         putchar('\n');
 }
@@ -145,17 +180,22 @@ static void print_unused(const glint_plan *plan)
 
 static void print_short(const glint_plan *plan, const scene *s)
 {
+    uint32_t count;
+    entry *const list = sort_shown(plan, &count);
+    if (list == NULL) {
+        print_all(plan, s);
+        return;
+    }
     printf("%-27s  %6s  %6s  %s\n", "", "time", "error", "why");
     puts("the picture");
-    print_group(plan, -1);
-    for (int32_t m = 0; m < s->material_count; ++m) {
-        if (count_shown(plan, m) == 0)
-            continue;
-        puts(material_name(s, m));
-        print_group(plan, m);
+    for (uint32_t at = print_group(list, count, 0, -1); at < count;) {
+        const int32_t material = list[at].decision->material;
+        puts(material_name(s, material));
+        at = print_group(list, count, at, material);
     }
-    print_plain(plan, s);
+    print_plain(list, count, s);
     print_unused(plan);
+    free(list);
 }
 
 /* ---- the whole ---- */
@@ -163,11 +203,11 @@ static void print_short(const glint_plan *plan, const scene *s)
 static void print_sum(const glint_plan *plan, const render_values *v)
 {
     const glint_plan_outcome out = glint_plan_result(plan);
-    const double samples = (double)v->size[0] * (double)v->size[1] * (double)v->spp;
-    printf("\nabout %.3g us a sample, %.3g s of one core in all; error of what is left out %.2g, noise of %lld samples "
+    const double samples = (double)v->size[0] * (double)v->size[1] * (double)out.samples;
+    printf("\nabout %.3g us a sample, %.3g s of one core in all; error of what is left out %.2g, noise of %u samples "
            "about %.2g\n",
-           1e-3 * (double)out.ns_per_sample, 1e-9 * (double)out.ns_per_sample * samples, (double)out.error,
-           (long long)v->spp, (double)out.noise);
+           1e-3 * (double)out.ns_per_sample, 1e-9 * (double)out.ns_per_sample * samples, (double)out.error, out.samples,
+           (double)out.noise);
     if (!(render_accuracy(v) > 0.0))
         puts("nothing is left out");
     else if (out.is_met)

@@ -9,12 +9,12 @@
 typedef struct render_values {
     const char *output, *camera, *variant;
     assignments materials;
-    int64_t size[2], tile[4]; /* tile: x, y, width, height; width 0: the whole picture */
-    int64_t spp, threads, seed, bounces;
-    double accuracy;    /* NAN: not given */
-    int model;          /* see arguments_model_choice */
-    int facets;         /* a preview_facets */
-    double exposure_ev; /* NAN: not given */
+    int64_t size[2], tile[4];            /* tile: x, y, width, height; width 0: the whole picture */
+    int64_t spp, threads, seed, bounces; /* spp 0: not given */
+    double accuracy;                     /* NAN: not given */
+    int model;                           /* see arguments_model_choice */
+    int facets;                          /* a preview_facets */
+    double exposure_ev;                  /* NAN: not given */
     const char *environment;
     double environment_rotation_deg, environment_exposure_ev; /* NAN: not given */
     int environment_background;                               /* 0 on, 1 off */

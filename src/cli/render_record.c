@@ -47,7 +47,7 @@ static bool write_exr(const render_record *record, const image *picture, report 
     const bool whole = v->tile[2] == 0;
     snprintf(tile, sizeof tile, "%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64, v->tile[0], v->tile[1],
              whole ? v->size[0] : v->tile[2], whole ? v->size[1] : v->tile[3]);
-    snprintf(spp, sizeof spp, "%" PRId64, v->spp);
+    snprintf(spp, sizeof spp, "%d", record->statistics.samples);
     snprintf(seed, sizeof seed, "%" PRId64, v->seed);
     snprintf(bounces, sizeof bounces, "%" PRId64, v->bounces);
     char rotation[32], exposure[32], accuracy[32];
@@ -117,7 +117,7 @@ int render_print_document(const render_record *record, document *warnings)
     document_set(d, "size", integers(v->size, 2));
     if (v->tile[2] > 0)
         document_set(d, "tile", integers(v->tile, 4));
-    document_set_integer(d, "spp", (uint64_t)v->spp);
+    document_set_integer(d, "spp", (uint64_t)s->samples);
     document_set_number(d, "accuracy", render_accuracy(v));
     document_set_text(d, "model", arguments_model_choice(v->model));
     document_set_text(d, "facets", render_facets_name(v->facets));
@@ -147,6 +147,6 @@ int render_print_document(const render_record *record, document *warnings)
 void render_print_line(const render_record *record)
 {
     const render_values *v = record->values;
-    printf("%s: %" PRId64 "x%" PRId64 ", %" PRId64 " spp, %.1f s, %.0f MiB\n", v->output, v->size[0], v->size[1],
-           v->spp, record->total_s, (double)peak_memory_bytes() / (1024.0 * 1024.0));
+    printf("%s: %" PRId64 "x%" PRId64 ", %d spp, %.1f s, %.0f MiB\n", v->output, v->size[0], v->size[1],
+           record->statistics.samples, record->total_s, (double)peak_memory_bytes() / (1024.0 * 1024.0));
 }

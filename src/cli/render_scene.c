@@ -12,6 +12,8 @@
 
 /* Two percent of a pixel: what an eye sees in a smooth gradient, and nowhere else. The founder's choice. */
 #define ACCURACY_DEFAULT 0.02
+/* A quick look: the fewest that show the facets that any number shows. */
+#define SAMPLES_DEFAULT 16
 
 #define AT(member) offsetof(render_values, member)
 
@@ -79,7 +81,7 @@ const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES] = {
       .target = AT(size) },
     { .name = "spp",
       .value = "N",
-      .help = "samples per pixel; 16",
+      .help = "samples per pixel; as many as an --accuracy that is given takes, else 16",
       .kind = ARGUMENT_INTEGERS,
       .count = 1,
       .min = 1,
@@ -206,7 +208,6 @@ bool render_read_scene(const char *path, const render_values *v, scene *s, repor
 render_values render_defaults(void)
 {
     return (render_values){ .size = { 1280, 720 },
-                            .spp = 16,
                             .accuracy = (double)NAN,
                             .bounces = 1,
                             .exposure_ev = (double)NAN,
@@ -219,6 +220,14 @@ double render_accuracy(const render_values *v)
     return isnan(v->accuracy) ? ACCURACY_DEFAULT : v->accuracy;
 }
 
+/* Who asks for an accuracy and for no number of samples wants as many as it takes: 0, the plan chooses. */
+static int samples_of(const render_values *v)
+{
+    if (v->spp > 0)
+        return (int)v->spp;
+    return !isnan(v->accuracy) && v->accuracy > 0.0 ? 0 : SAMPLES_DEFAULT;
+}
+
 bool render_options(const render_values *v, scene *s, render_light *light, preview_options *options, report *r)
 {
     *options = (preview_options)PREVIEW_OPTIONS_INIT;
@@ -228,7 +237,7 @@ bool render_options(const render_values *v, scene *s, render_light *light, previ
     options->tile_y = (int)v->tile[1];
     options->tile_width = (int)v->tile[2];
     options->tile_height = (int)v->tile[3];
-    options->spp = (int)v->spp;
+    options->spp = samples_of(v);
     options->accuracy = render_accuracy(v);
     options->bounces = (int)v->bounces;
     options->threads = (int)v->threads;

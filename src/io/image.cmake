@@ -23,4 +23,5 @@ target_sources(io_image_objects INTERFACE $<TARGET_OBJECTS:io_pixels_objects>)
 # OpenEXR's list has libraries that nobody here calls.
 target_link_options(io_image_objects INTERFACE -Wl,--as-needed)
 target_link_libraries(io_image_objects PUBLIC PkgConfig::OPENEXR PkgConfig::PNG INTERFACE ${CMAKE_DL_LIBS})
-add_dependencies(io_image_objects glint_image)
+# Nobody links the module; who may load it is built after it.
+set_target_properties(io_image_objects PROPERTIES INTERFACE_LINK_DEPENDS $<TARGET_FILE:glint_image>)

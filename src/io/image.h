@@ -1,5 +1,5 @@
-/* Pictures and texture lookups. OpenImageIO reads and looks up, and is loaded when first needed (image_engine.h); libpng
- * and OpenEXR write. */
+/* Pictures and texture lookups. OpenImageIO reads and looks up, and is loaded when first needed (image_engine.h);
+ * libpng and OpenEXR write. */
 #ifndef IO_IMAGE_H
 #define IO_IMAGE_H
 

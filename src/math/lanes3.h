@@ -23,6 +23,11 @@ static inline vfloat dot_3(vfloat3 a, vfloat3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+static inline vfloat3 cross_3(vfloat3 a, vfloat3 b)
+{
+    return (vfloat3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
 static inline vfloat3 choose_3(vmask m, vfloat3 a, vfloat3 b)
 {
     return (vfloat3){ choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z) };

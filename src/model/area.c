@@ -1,30 +1,21 @@
 /* The smooth reflection of a light of real size, and the chance that a facet reflects it to the viewer. */
 #include "model/area.h"
 
+#define GLINT_LANES 1
 #include "math/float_bits.h"
 #include "math/real.h"
 #include "model/area_facets.h"
+#include "model/area_lit.h"
 #include "model/lobe.h"
 
-/* p of Eq. 12, with the lobe of a rough facet as more half vectors around those of the light. */
 static void find_lit(const model_query *q, const area_facets *f, area_value *value)
 {
-    const glint_material_options *o = &q->material->options;
-    const ndf n = lobe_ndf(q);
-    /* A mean of unit vectors is no longer than one, unless what was summed is rounding. */
-    const vec3d sum = { f->x, f->y, f->projected };
-    const double size = real_max(vec3d_length(sum), f->facets);
-    if (size > 1e-100)
-        value->h = vec3d_narrow(vec3d_scale(sum, 1.0 / size));
-    /* The cap is seen from above, the lobe of a facet is not. */
-    const double solid_angle = real_min(f->cap / real_max((double)value->h.z, 1e-6), 2.0 * REAL_PI);
-    const double lit = (double)ndf_lit_solid_angle(n.kind, (float)solid_angle, o->facet_alpha);
-    const double wider = solid_angle > 1e-30 ? lit / solid_angle : 1.0;
-    double p = f->projected;
-    if (o->weighting == GLINT_WEIGHTING_EQUAL_AREA)
-        p = f->facets / (double)(q->total_area > 0.0F ? q->total_area : ndf_total_area(&n));
-    value->lit_probability = (float)real_min(p * wider, 1.0);
-    value->cap = (float)(lit * (double)value->h.z);
+    const lobe_query lobe = { .alpha_x = q->surface->alpha_x, .alpha_y = q->surface->alpha_y };
+    const area_halves halves = { (float)f->facets, (float)f->x, (float)f->y, (float)f->projected, (float)f->cap };
+    const area_lit lit = area_lit_of(&q->material->options, &lobe, q->total_area, &halves);
+    value->h = (vec3){ lit.h.x, lit.h.y, lit.h.z };
+    value->cap = lit.cap;
+    value->lit_probability = lit.p;
 }
 
 /* ---- the base ---- */
@@ -60,7 +51,7 @@ static void integrate_base(const model_query *q, const area_light *light, area_v
         value->diffuse[c] = (float)(light->moment.z * (1.0 / REAL_PI) * sum[c] / weight);
 }
 
-void area_eval(const model_query *q, area_value *value)
+void area_eval_any(const model_query *q, area_value *value)
 {
     *value = (area_value){ { 0.0F }, { 0.0F }, 0.0F, { 0.0F, 0.0F, 1.0F }, 0.0F };
     area_light light;
@@ -82,4 +73,34 @@ void area_eval(const model_query *q, area_value *value)
         value->specular[c] = seen * q->material->options.coverage * (float)facets.specular[c];
         value->diffuse[c] *= seen;
     }
+}
+
+static float between(float a, float b, float share)
+{
+    return a + share * (b - a);
+}
+
+void area_mix(area_value *value, const area_value *other, float share)
+{
+    for (int c = 0; c < 3; c++) {
+        value->specular[c] = between(value->specular[c], other->specular[c], share);
+        value->diffuse[c] = between(value->diffuse[c], other->diffuse[c], share);
+    }
+    value->lit_probability = between(value->lit_probability, other->lit_probability, share);
+    value->h = vec3_add(vec3_scale(value->h, 1.0F - share), vec3_scale(other->h, share));
+    value->cap = between(value->cap, other->cap, share);
+}
+
+void area_eval(const model_query *q, area_value *value)
+{
+    const int is_exact = q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
+    const float left = is_exact ? 1.0F : area_eval_plain(q, value);
+    if (!(left > 0.0F))
+        return;
+    area_value other;
+    area_eval_any(q, &other);
+    if (left < 1.0F)
+        area_mix(value, &other, left);
+    else
+        *value = other;
 }

@@ -10,6 +10,7 @@
 #include "math/float_bits.h"
 #include "math/hash.h"
 #include "model/area.h"
+#include "model/area_kernel.h"
 #include "model/lobe.h"
 #include "model/lobe_kernel.h"
 #include "model/machine_lanes.h"
@@ -90,12 +91,10 @@ static void find_one(const model_query *q, lobe_lit *l, size_t i)
 
 static void find_lit(const model_query *q, size_t number, lobe_lit *l)
 {
-    if (number > 1 && !q->area_light) {
-        lobe_eval_many(q, number, 1, l);
-        return;
-    }
-    for (size_t i = 0; i < number; i++)
-        find_one(&q[i], l, i);
+    if (number > 1)
+        (q->area_light ? area_eval_many : lobe_eval_many)(q, number, 1, l);
+    else
+        find_one(q, l, 0);
 }
 
 /* Whether there is anything to count at this point. */

@@ -15,7 +15,8 @@ uint32_t example_lit_quarters(const example_view *v, int level, uint32_t x, uint
         const vfloat reach2 = SLOPE_REACH * SLOPE_REACH * (load_f(q->variance[k]) + v->slope_variance);
         dark |= less(splat(0.0F), away) & less(reach2, away * away);
     }
-    return 15U - (uint32_t)((dark[0] & 1) | (dark[1] & 2) | (dark[2] & 4) | (dark[3] & 8));
+    const vuint lit = (vuint)~dark & (vuint){ 1U, 2U, 4U, 8U };
+    return (lit[0] | lit[1]) | (lit[2] | lit[3]);
 }
 
 static float sum_of(vfloat x)

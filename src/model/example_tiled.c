@@ -59,7 +59,10 @@ static example_view mirrored(const example_view *v, const variant *as)
     return m;
 }
 
-/* Footprints that are small beside the example see few squares and go to its texels at once. */
+/* So few squares are walked through one after another: most lanes would be empty (cost). */
+#define FEW_SQUARES 4
+
+/* Footprints of a few texels go to those at once. */
 static int is_small(const example_view *v)
 {
     return tile_curve(v, EXAMPLE_LEAST_MAP_LEVEL) > MOST_VARIATION;
@@ -93,7 +96,7 @@ void example_gather_tiled(const question *q, int wants_mass, gathered *sum)
     views[0].wants_mass = wants_mass;
     for (uint32_t k = 1; k < l->kinds; k++)
         views[k] = mirrored(views, &l->variants[k]);
-    if (views->palette || is_small(views))
+    if (views->palette || squares.count <= FEW_SQUARES || is_small(views))
         take_singly(q, views, &squares, centre, sum);
     else
         widest()(views, &squares, sum);

@@ -1,5 +1,6 @@
 /* The smooth model: infinitely many facets, a Cook-Torrance lobe (Cook and Torrance 1982; Walter et al. 2007). */
 #include "model/area.h"
+#include "model/area_kernel.h"
 #include "model/lobe.h"
 #include "model/lobe_kernel.h"
 
@@ -21,15 +22,10 @@ static void smooth_eval(const model_query *q, glint_value *value)
 
 static void smooth_eval_many(const model_query *q, size_t count, glint_value *value)
 {
-    if (q->area_light) {
-        for (size_t i = 0; i < count; i++)
-            smooth_eval(&q[i], &value[i]);
-        return;
-    }
     lobe_lit lit;
     for (size_t first = 0; first < count; first += LOBE_MOST) {
         const size_t number = count - first < LOBE_MOST ? count - first : LOBE_MOST;
-        lobe_eval_many(q + first, number, 0, &lit);
+        (q->area_light ? area_eval_many : lobe_eval_many)(q + first, number, 0, &lit);
         for (size_t i = 0; i < number; i++) {
             glint_value *v = &value[first + i];
             *v = (glint_value){ 0 };

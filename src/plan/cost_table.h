@@ -26,8 +26,8 @@ typedef enum plan_cost {
 
 /* ns on one core; only their ratios last. */
 extern const float plan_costs[PLAN_COST_COUNT];
-/* Root mean square over lights and surfaces of what linearly transformed cosines are off, relative, weighted by light:
- * of GGX and of Beckmann. */
-extern const float plan_ltc_errors[2];
+/* Over lights and surfaces, weighted by light, of GGX and of Beckmann: the root mean square of what linearly
+ * transformed cosines are off, relative; and the share of the lit facets that they turn on or off. */
+extern const float plan_ltc_errors[2], plan_ltc_flips[2];
 
 #endif

@@ -47,8 +47,7 @@ double plan_bin_middle(uint32_t bin)
 
 double plan_left(const glint_plan *p, int n)
 {
-    const double budget = (double)p->summary.error_budget;
-    return sqrt(fmax(budget * budget - p->variance, 0.0) / n);
+    return sqrt(fmax(p->budget * p->budget - p->variance, 0.0) / n);
 }
 
 glint_decision *plan_decide(glint_plan *p, glint_decision d, const char *reason, ...)
@@ -115,6 +114,8 @@ static void check_pair(complaint *c, const glint_plan_summary *s, uint32_t index
         complain(c, GLINT_ERROR_RANGE, "pairs[%u].light is %u, expected less than %u", index, pair->light,
                  s->light_count);
     check(c, "pairs[].seen", pair->seen, 0.0F, 1e9F);
+    check(c, "pairs[].part", pair->part, 0.0F, 1e9F);
+    check(c, "pairs[].sparks", pair->sparks, 0.0F, 1e20F);
     for (int i = 0; i < GLINT_PLAN_BINS; i++) {
         check(c, "pairs[].share[]", pair->share[i], 0.0F, 1e9F);
         check(c, "pairs[].rate[]", pair->rate[i], 0.0F, 1e9F);
@@ -137,11 +138,18 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
     if (s->samples_per_pixel < 1 || s->tiles_per_pixel < 1)
         complain(c, GLINT_ERROR_RANGE, "samples_per_pixel is %u and tiles_per_pixel %u, expected 1 or more",
                  s->samples_per_pixel, s->tiles_per_pixel);
+    if (s->noise_samples < 1)
+        complain(c, GLINT_ERROR_RANGE, "noise_samples is 0, expected 1 or more");
+    if (s->most_samples > 0 && s->most_samples < s->samples_per_pixel)
+        complain(c, GLINT_ERROR_RANGE, "most_samples is %u, expected 0 or samples_per_pixel, %u, or more",
+                 s->most_samples, s->samples_per_pixel);
     check(c, "error_budget", s->error_budget, 0.0F, 1.0F);
     check(c, "bounce_rays", s->bounce_rays, 0.0F, 1e9F);
     check(c, "sky_rays", s->sky_rays, 0.0F, 1e9F);
     check(c, "bounced", s->bounced, 0.0F, 1e9F);
     check(c, "noise", s->noise, 0.0F, 1e9F);
+    check(c, "noise_fall", s->noise_fall, 1.0F, 3.0F);
+    check(c, "noise_spread", s->noise_spread, 0.0F, 1e9F);
     if (!s->allocator.allocate != !s->allocator.release)
         complain(c, GLINT_ERROR_ARGUMENT, "allocator has only one of allocate and release, expected both or neither");
     for (uint32_t i = 0; i < s->material_count; i++) {
@@ -154,7 +162,7 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
 }
 
 /* What a material can say at most: its look-ups, colours, layers, anisotropy, textures, normal maps and alpha. */
-enum { MOST_PER_MATERIAL = 7, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
+enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 2, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
 
 static glint_plan *make(const glint_plan_summary *s)
 {
@@ -162,19 +170,40 @@ static glint_plan *make(const glint_plan_summary *s)
     if (!a.allocate)
         a = (glint_allocator){ allocate_default, release_default, NULL };
     const size_t materials = s->material_count, lights = s->light_count;
-    const size_t decisions = materials * MOST_PER_MATERIAL + s->pair_count + lights * MOST_PER_LIGHT + MOST_OF_ALL;
+    const size_t decisions =
+        materials * MOST_PER_MATERIAL + s->pair_count * MOST_PER_PAIR + lights * MOST_PER_LIGHT + MOST_OF_ALL;
     /* One piece: the plan, then its arrays, those with pointers or larger members first. */
-    const size_t size = sizeof(glint_plan) + decisions * sizeof(glint_decision) + materials * sizeof(plan_material);
+    const size_t size = sizeof(glint_plan) + materials * sizeof(plan_material) + decisions * sizeof(glint_decision) +
+                        lights * sizeof(float) + (materials + 1 + s->pair_count) * sizeof(uint32_t);
     glint_plan *const p = a.allocate(size, a.user);
     if (!p)
         return NULL;
     memset(p, 0, size);
     p->summary = *s;
+    p->fewest = s->samples_per_pixel;
     p->allocator = a;
-    p->decisions = (glint_decision *)(p + 1);
-    p->materials = (plan_material *)(p->decisions + decisions);
+    p->materials = (plan_material *)(p + 1);
+    p->decisions = (glint_decision *)(p->materials + materials);
+    p->light_seen = (float *)(p->decisions + decisions);
+    p->first_pair = (uint32_t *)(p->light_seen + lights);
+    p->pairs = p->first_pair + materials + 1;
     p->capacity = (uint32_t)decisions;
     return p;
+}
+
+/* Puts the pairs in the order of their materials: counts, adds up, and fills each material's part from its end. */
+static void sort_pairs(glint_plan *p)
+{
+    const glint_plan_summary *const s = &p->summary;
+    for (uint32_t i = 0; i < s->pair_count; i++) {
+        p->first_pair[s->pairs[i].material]++;
+        p->light_seen[s->pairs[i].light] += s->pairs[i].seen;
+    }
+    uint32_t sum = 0;
+    for (uint32_t m = 0; m <= s->material_count; m++)
+        sum = p->first_pair[m] += sum;
+    for (uint32_t i = s->pair_count; i-- > 0;)
+        p->pairs[--p->first_pair[s->pairs[i].material]] = i;
 }
 
 /* Materials whose facets can be left out by degrees. */
@@ -187,6 +216,21 @@ static void decide_facets(glint_plan *p)
     const double each = plan_left(p, can_draw ? 2 : 1);
     for (uint32_t m = 0; m < p->summary.material_count; m++)
         plan_facets(p, m, each, can_draw && plan_draws(p, m) ? each : 0.0);
+}
+
+static void decide(glint_plan *p, uint32_t samples, double budget)
+{
+    p->summary.samples_per_pixel = samples;
+    p->budget = budget;
+    p->variance = 0.0;
+    p->count = 0;
+    p->outcome = (glint_plan_outcome){ 0 };
+    memset(p->materials, 0, p->summary.material_count * sizeof(plan_material));
+    plan_surfaces(p);
+    plan_bounces(p);
+    plan_lights(p);
+    decide_facets(p);
+    plan_samples(p);
 }
 
 static void share_out_time(glint_plan *p)
@@ -216,11 +260,11 @@ glint_result glint_plan_create(const glint_plan_summary *summary, glint_plan **p
                  summary->material_count, summary->light_count);
         return c.result;
     }
-    plan_surfaces(p);
-    plan_bounces(p);
-    plan_lights(p);
-    decide_facets(p);
-    plan_samples(p);
+    sort_pairs(p);
+    if (p->summary.most_samples > 0)
+        plan_choose_samples(p, decide);
+    else
+        decide(p, p->summary.samples_per_pixel, (double)p->summary.error_budget);
     share_out_time(p);
     *plan = p;
     return GLINT_OK;

@@ -15,14 +15,19 @@ typedef struct plan_material {
     int is_smooth;
     float smooth_deviation, draw_deviation;
     glint_area_light_method method;
+    double fit_variance, fit_evaluations; /* what the fit for lights with a shape would add, and per sample */
 } plan_material;
 
 struct glint_plan {
     glint_plan_summary summary; /* of its pointers none is followed after the plan is made */
+    uint32_t fewest;            /* samples that may be taken; those of the summary are the plan's */
     glint_allocator allocator;
     glint_plan_outcome outcome;
+    double budget;   /* that may be left out: all of the error budget, or what the noise leaves of it */
     double variance; /* of all errors so far */
     plan_material *materials;
+    uint32_t *first_pair, *pairs; /* indices of the summary's pairs, material by material; where each material begins */
+    float *light_seen;            /* evaluations of each light per sample */
     glint_decision *decisions;
     uint32_t count, capacity;
 };
@@ -32,6 +37,17 @@ glint_decision *plan_decide(glint_plan *p, glint_decision d, const char *reason,
     __attribute__((format(printf, 3, 4)));
 /* The error that may still be spent, and its share of one in n. */
 double plan_left(const glint_plan *p, int n);
+
+/* The pairs of a material. */
+static inline uint32_t plan_pair_count(const glint_plan *p, uint32_t material)
+{
+    return p->first_pair[material + 1] - p->first_pair[material];
+}
+
+static inline const glint_plan_pair *plan_pair(const glint_plan *p, uint32_t material, uint32_t index)
+{
+    return &p->summary.pairs[p->pairs[p->first_pair[material] + index]];
+}
 
 /* N p in the middle of a bin. */
 double plan_bin_middle(uint32_t bin);
@@ -45,10 +61,19 @@ int plan_draws(const glint_plan *p, uint32_t material);
 /* Whether a light of this material is sampled and not evaluated. */
 int plan_is_surrounded(const glint_plan *p, uint32_t material);
 
-/* plan_scene.c: everything else. */
-void plan_surfaces(glint_plan *p);
+/* plan_lights.c: LIGHT and SHADOWS. */
 void plan_lights(glint_plan *p);
+
+/* plan_scene.c: everything else but the number of samples. */
+void plan_surfaces(glint_plan *p);
 void plan_bounces(glint_plan *p);
+
+/* Decides everything anew, for so many samples and an error that may be left out. */
+typedef void plan_decider(glint_plan *p, uint32_t samples, double budget);
+
+/* plan_samples.c. The variance of a pixel of so many samples; the cheapest number of them; and what they come to. */
+double plan_noise_variance(const glint_plan *p, double samples);
+void plan_choose_samples(glint_plan *p, plan_decider *decide);
 void plan_samples(glint_plan *p);
 
 #endif

@@ -62,11 +62,9 @@ int plan_draws(const glint_plan *p, uint32_t material)
 
 int plan_is_surrounded(const glint_plan *p, uint32_t material)
 {
-    for (uint32_t i = 0; i < p->summary.pair_count; i++) {
-        const glint_plan_pair *const pair = &p->summary.pairs[i];
-        if (pair->material == material && p->summary.lights[pair->light].kind == GLINT_PLAN_LIGHT_SURROUNDINGS)
+    for (uint32_t i = 0; i < plan_pair_count(p, material); i++)
+        if (p->summary.lights[plan_pair(p, material, i)->light].kind == GLINT_PLAN_LIGHT_SURROUNDINGS)
             return 1;
-    }
     return 0;
 }
 
@@ -288,11 +286,8 @@ static void decide_lookups(glint_plan *p, uint32_t material, const limits *l, do
 static int is_all_smooth(const glint_plan *p, uint32_t material, const limits *l)
 {
     int seen = 0;
-    for (uint32_t i = 0; i < p->summary.pair_count; i++) {
-        const glint_plan_pair *const pair = &p->summary.pairs[i];
-        if (pair->material != material)
-            continue;
-        const tally t = tally_pair(pair, l);
+    for (uint32_t i = 0; i < plan_pair_count(p, material); i++) {
+        const tally t = tally_pair(plan_pair(p, material, i), l);
         if (t.counted + t.drawn > 0.0)
             return 0;
         seen += t.faded > 0.0;
@@ -315,10 +310,8 @@ void plan_facets(glint_plan *p, uint32_t material, double facets_error, double d
     const int fades = plan_fades(p, material);
     const int is_smooth =
         fades && is_smooth_without(m->base) && is_smooth_without(m->coat) && is_all_smooth(p, material, &l);
-    for (uint32_t i = 0; i < p->summary.pair_count; i++) {
-        const glint_plan_pair *const pair = &p->summary.pairs[i];
-        if (pair->material != material)
-            continue;
+    for (uint32_t i = 0; i < plan_pair_count(p, material); i++) {
+        const glint_plan_pair *const pair = plan_pair(p, material, i);
         if (!fades) {
             decide_whole(p, pair, discrete_layer(m));
             continue;

@@ -10,7 +10,6 @@ struct glint_preview_picture {
     preview_picture *picture;
     atomic_bool cancel;
     _Atomic double progress;
-    int samples;
 };
 
 static bool camera_of(const glint_preview_camera *from, scene_camera *to, report *r)
@@ -85,7 +84,6 @@ static bool open_picture(glint_preview_picture *p, const glint_preview_scene *s,
     o.progress = keep_progress;
     o.user = p;
     o.cancel = &p->cancel;
-    p->samples = from->samples;
     return preview_picture_open(s->stage, &o, &p->picture, r);
 }
 
@@ -110,6 +108,11 @@ glint_preview_result glint_preview_picture_create(const glint_preview_scene *s,
     else
         glint_preview_picture_destroy(p);
     return answer_of(done, &r, message, message_size);
+}
+
+int32_t glint_preview_picture_samples(const glint_preview_picture *picture)
+{
+    return picture != NULL ? preview_picture_samples(picture->picture) : 0;
 }
 
 glint_preview_result glint_preview_picture_refine(glint_preview_picture *picture, int32_t samples, char *message,
@@ -223,8 +226,8 @@ static void write_plan(const glint_plan *plan, const scene *s, lines *l)
 {
     char line[512], material[128];
     const glint_plan_outcome out = glint_plan_result(plan);
-    snprintf(line, sizeof line, "%.9g\t%.9g\t%.9g\t%s\t%u\n", (double)out.ns_per_sample, (double)out.error,
-             (double)out.noise, out.is_met ? "met" : "missed", out.enough_samples);
+    snprintf(line, sizeof line, "%.9g\t%.9g\t%.9g\t%s\t%u\t%u\n", (double)out.ns_per_sample, (double)out.error,
+             (double)out.noise, out.is_met ? "met" : "missed", out.enough_samples, out.samples);
     add_line(l, line);
     for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i) {
         const glint_decision *const d = glint_plan_decision(plan, i);

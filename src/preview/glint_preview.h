@@ -213,7 +213,8 @@ typedef struct glint_preview_picture_options {
     int32_t width, height; /* of the whole picture, pixels, [1, 65536] */
     /* The part that is rendered, from the upper left corner; part_width 0: all. */
     int32_t part_left, part_top, part_width, part_height;
-    int32_t samples;     /* a pixel, in the end, [1, 65536]; powers of 4 are spread best */
+    int32_t samples;     /* a pixel, in the end, [1, 65536]; powers of 4 are spread best. 0: as many as the accuracy,
+                            above 0, takes: see glint_preview_picture_samples */
     int32_t bounces;     /* of indirect light, [0, 64] */
     int32_t threads;     /* 0: one a core */
     uint32_t seed;       /* of the sampling noise */
@@ -229,7 +230,8 @@ typedef struct glint_preview_picture_options {
 
 /* What a picture with these options would do, what it would leave out, and what each costs: lines whose fields tabs set
  * apart. The first line: nanoseconds of one core a sample, error of what is left out, noise of the samples (both
- * relative), "met" or "missed" (the accuracy), samples that would meet it (0: no number would). Then a line a decision:
+ * relative), "met" or "missed" (the accuracy), samples that would meet it (0: no number would), samples that are
+ * taken. Then a line a decision:
  * name of its material (empty: of the whole picture), effect, "on" or "off", choice, share of the time, error, reason.
  * docs/plan.md. A text_size that is too small is an error that says how large it must be. */
 GLINT_PREVIEW_API glint_preview_result glint_preview_plan(const glint_preview_scene *s,
@@ -244,10 +246,13 @@ GLINT_PREVIEW_API glint_preview_result glint_preview_picture_create(const glint_
                                                                     glint_preview_picture **out, char *message,
                                                                     size_t message_size);
 
+/* Of a pixel in the end: those of the options, or as many as the plan has chosen. 0 for NULL. */
+GLINT_PREVIEW_API int32_t glint_preview_picture_samples(const glint_preview_picture *picture);
+
 /* Adds samples to every pixel until it has as many as are asked for, and returns then. A picture is the same, bit for
  * bit, in whatever steps it came. After GLINT_PREVIEW_CANCELLED each pixel is the mean of the samples that it has, and
- * a further call goes on. GLINT_PREVIEW_BAD_INPUT: samples out of [1, options.samples], or more facets than the
- * explicit model visits; the picture is good but dark there. */
+ * a further call goes on. GLINT_PREVIEW_BAD_INPUT: samples out of [1, glint_preview_picture_samples], or more facets
+ * than the explicit model visits; the picture is good but dark there. */
 GLINT_PREVIEW_API glint_preview_result glint_preview_picture_refine(glint_preview_picture *picture, int32_t samples,
                                                                     char *message, size_t message_size);
 

@@ -24,9 +24,14 @@ typedef struct world {
     bool has_sky, sky_seen;         /* seen: by the camera */
     bool is_blended;                /* a surface lets rays through at random */
     int bounces, spp;
-    /* The samples' footprints tile a pixel, side x side of them: see preview_footprint_side. */
+    /* The samples' footprints tile a pixel, side x side of them: the largest power of two whose square is at most spp,
+     * so that each has as many samples. */
     int footprint_side;
-    /* Facets are counted under tiles that may be larger, glint_side x glint_side of them: see preview_glint_side. */
+    /* Facets are counted under tiles that may be larger, glint_side x glint_side of them: no more than 4 x 4, whatever
+     * the number of samples. A model that counts whole tiles shows other facets under other tiles; so the picture has a
+     * limit to which samples bring it, and it is the same facets at 16 samples and at 1024. The explicit model adds up
+     * facets, and its picture is the same under any tiles. docs/plan.md has what the number does to the statistics of
+     * blocks. */
     int glint_side;
     uint32_t seed;
 } world;
@@ -62,15 +67,8 @@ typedef struct ray_counts {
     float most_facets;   /* of those */
 } ray_counts;
 
-/* The largest power of two whose square is at most spp: so many strata along a side of the pixel hold as many samples
- * each. */
-int preview_footprint_side(int spp);
-
-/* Tiles of a pixel under which a model counts: no more than 4 x 4, whatever the number of samples. A model that counts
- * whole tiles shows other facets under other tiles; so the picture has a limit to which samples bring it, and it is the
- * same facets at 16 samples and at 1024. The explicit model adds up facets, and its picture is the same under any
- * tiles. docs/plan.md has what the number does to the statistics of blocks. */
-int preview_glint_side(const preview_options *o);
+/* How many samples a pixel gets, and its footprints. model: of the options. */
+void world_take_samples(world *w, int spp, int model);
 
 /* What sample number index of the pixel (x, y) sees first. False: nothing. */
 bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v);

@@ -80,12 +80,12 @@ static double range_factor(double distance, double range)
 
 static bool set_irradiance(const light *l, double factor, light_view *out)
 {
-    float largest = 0.0F;
+    bool is_any = false;
     for (int c = 0; c < 3; ++c) {
         out->irradiance[c] = (float)((double)l->intensity[c] * factor);
-        largest = fmaxf(largest, out->irradiance[c]);
+        is_any = is_any || out->irradiance[c] > 0.0F;
     }
-    return largest > 0.0F;
+    return is_any;
 }
 
 bool light_see(const light *l, vec3 position, light_view *out)

@@ -2,6 +2,7 @@
 #ifndef PREVIEW_LIGHT_H
 #define PREVIEW_LIGHT_H
 
+#include "preview/effects.h"
 #include "preview/vector.h"
 #include "scene/scene.h"
 
@@ -32,7 +33,7 @@ typedef struct light_view {
 /* Whether it has a flat shape, which is evaluated as a whole: see area_shadow.h. */
 static inline bool light_is_area(const light *l)
 {
-    return l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK;
+    return EFFECT_FLAT_LIGHTS && (l->kind == SCENE_LIGHT_RECT || l->kind == SCENE_LIGHT_DISK);
 }
 
 /* Whether light_pick has a choice. */

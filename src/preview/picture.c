@@ -81,10 +81,16 @@ bool preview_picture_open(const preview_stage *s, const preview_options *options
     return true;
 }
 
+int preview_picture_samples(const preview_picture *p)
+{
+    return p->view.world.spp;
+}
+
 bool preview_picture_refine(preview_picture *p, int samples, preview_statistics *statistics, report *r)
 {
-    if (samples < 1 || samples > p->options.spp)
-        return report_error(r, "preview: samples is %d; expected 1 to the picture's %d", samples, p->options.spp);
+    const int most = preview_picture_samples(p);
+    if (samples < 1 || samples > most)
+        return report_error(r, "preview: samples is %d; expected 1 to the picture's %d", samples, most);
     const tiles_job job = {
         .world = &p->view.world, .options = &p->options, .samples = samples, .film = &p->film, .sums = &p->sums
     };

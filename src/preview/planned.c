@@ -15,7 +15,9 @@ bool planned_make(planned *p, const preview_options *options, world *w, report *
         return report_error(r, "preview: no plan: %s", message[0] != '\0' ? message : glint_result_text(result));
     const bool made = materials_make(w->shader.scene, options, p->plan, &p->materials, r);
     w->shader.materials = &p->materials;
-    w->bounces = (int)glint_plan_result(p->plan).bounces;
+    const glint_plan_outcome out = glint_plan_result(p->plan);
+    world_take_samples(w, (int)out.samples, options->model);
+    w->bounces = (int)out.bounces;
     if (w->bounces == 0)
         w->emitters = NULL;
     return made;

@@ -13,6 +13,8 @@
 #define LARGEST_SIDE 65536
 #define MOST_SAMPLES 65536
 #define MOST_BOUNCES 64
+/* A view is looked at with as many where their number is to be planned: the fewest that see all tiles of a pixel. */
+#define SAMPLES_TO_PLAN 16
 
 static double now_s(void)
 {
@@ -35,7 +37,8 @@ bool stage_check_options(const preview_options *o, report *r)
         return report_error(r, "preview: the options' size is %zu; expected %zu: start from PREVIEW_OPTIONS_INIT",
                             o->size, sizeof *o);
     if (!check_range("width", o->width, 1, LARGEST_SIDE, r) || !check_range("height", o->height, 1, LARGEST_SIDE, r) ||
-        !check_range("spp", o->spp, 1, MOST_SAMPLES, r) || !check_range("bounces", o->bounces, 0, MOST_BOUNCES, r) ||
+        !check_range("spp", o->spp, o->accuracy > 0.0 ? 0 : 1, MOST_SAMPLES, r) ||
+        !check_range("bounces", o->bounces, 0, MOST_BOUNCES, r) ||
         !check_range("model", o->model, PREVIEW_MODEL_AUTO, last_model, r) ||
         !check_range("facets", (int)o->facets, PREVIEW_FACETS_OWN, PREVIEW_FACETS_POVRAY, r))
         return false;
@@ -167,10 +170,8 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
                             .environment = st->has_environment ? &st->environment : NULL,
                             .is_blended = is_blended(st->scene),
                             .bounces = o->bounces,
-                            .spp = o->spp,
-                            .footprint_side = preview_footprint_side(o->spp),
-                            .glint_side = preview_glint_side(o),
                             .seed = o->seed } };
+    world_take_samples(&v->world, o->spp > 0 ? o->spp : SAMPLES_TO_PLAN, o->model);
     if (st->emitters.count > 0 && o->bounces > 0)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
@@ -227,12 +228,13 @@ static bool render(const stage *st, const world *w, const preview_options *o, im
 {
     if (!film_of_options(o, out, r))
         return false;
-    const tiles_job job = { .world = w, .options = o, .samples = o->spp, .film = out };
+    const tiles_job job = { .world = w, .options = o, .samples = w->spp, .film = out };
     ray_counts counts = { 0 };
     const double start = now_s();
     const bool finished = tiles_render(&job, &counts, r);
     statistics->render_s = now_s() - start;
     stage_count(&counts, statistics);
+    statistics->samples = w->spp;
     if (finished && stage_check_counts(st, &counts, r))
         return true;
     image_free(out);

@@ -32,7 +32,7 @@ typedef struct preview_options {
     size_t size;                                 /* set by PREVIEW_OPTIONS_INIT */
     int width, height;                           /* pixels, [1, 65536] */
     int tile_x, tile_y, tile_width, tile_height; /* the part to render, inside the picture; width 0: all */
-    int spp;                                     /* samples per pixel, [1, 65536]; powers of 4 are spread best */
+    int spp;       /* samples per pixel, [1, 65536]; powers of 4 are spread best. 0: as many as the accuracy takes */
     int bounces;   /* of indirect light from surface to surface, [0, 64]; 0: lights and sky only */
     int threads;   /* 0: one a core */
     uint32_t seed; /* of the sampling noise; the facets have the material's own */
@@ -63,6 +63,7 @@ typedef struct preview_options {
 
 typedef struct preview_statistics {
     double load_s, build_s, render_s;
+    int samples; /* per pixel */
     uint64_t camera_rays, shadow_rays, bounce_rays, glint_evals, smooth_evals;
 } preview_statistics;
 
@@ -122,8 +123,10 @@ typedef struct preview_picture preview_picture;
  * copied, and cancel must outlive the picture. spp is the number of samples in the end: it decides how large the
  * footprint of each is. On failure *out is NULL. */
 bool preview_picture_open(const preview_stage *stage, const preview_options *options, preview_picture **out, report *r);
-/* Adds samples to every pixel until it has as many as are asked for, [1, spp]. The picture then is, bit for bit, that
- * of any other way to the same number; with spp samples it is that of preview_render.
+/* Of a pixel in the end: spp, or what the plan has chosen. */
+int preview_picture_samples(const preview_picture *p);
+/* Adds samples to every pixel until it has as many as are asked for, [1, preview_picture_samples]. The picture then is,
+ * bit for bit, that of any other way to the same number; with all of them it is that of preview_render.
  *
  * False without an error: cancelled. Pixels then have different numbers of samples, each is the mean of its own, and a
  * further call goes on. False with an error: what preview_render says of too many facets; the pixels are good. */

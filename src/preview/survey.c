@@ -1,11 +1,10 @@
 /* A few hundred pixels, spread evenly over the picture, with a few samples each.
  *
  * Of every light at the first surface it is noted how many facets it lights in the pixel, and which part of the pixel's
- * light that is; of whole samples, how much they differ and what bounces bring.
+ * light that is; of whole samples, what bounces bring and, in survey_noise.c, how much they differ.
  */
 #include "preview/survey.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "preview/choose_lights.h"
@@ -13,14 +12,18 @@
 #include "preview/hash.h"
 #include "preview/sampler.h"
 #include "preview/surroundings.h"
-#include "scene/surface.h"
+#include "preview/survey_noise.h"
 
-/* Samples of a pixel: enough for a variance. */
+/* Samples of a pixel that tell what bounces bring. */
 #define SAMPLES 4
 /* Pixels are as many as cost no more than one sample in so many, within limits. Taste. */
-#define RENDERED_FOR_ONE 800
-#define LEAST_PIXELS 100
-#define MOST_PIXELS 900
+#define RENDERED_FOR_ONE 200
+#define LEAST_PIXELS 256
+#define MOST_PIXELS 1600
+/* What the plan may choose, of pixels without facets from four on, so that their edges are smooth. A picture of 1280 x
+ * 720 pixels at a microsecond a sample takes an hour of one core with the most. Taste. */
+#define LEAST_SAMPLES 4
+#define MOST_SAMPLES 4096
 /* Dimensions of the sampler that a path's first vertex does not use. */
 #define DIM_SURVEY 1000000U
 
@@ -29,7 +32,7 @@ typedef struct tally {
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
-    double noise, bounced, bounce_rays, sky_rays;
+    double square, bounced, bounce_rays, sky_rays; /* square: of the light of pixels, without facets */
 } tally;
 
 static double level(const float rgb[3])
@@ -42,7 +45,7 @@ static double level(const float rgb[3])
 /* Returns the light of the pixel; 0: it is black. */
 static double look_at_samples(tally *t, int x, int y)
 {
-    double sum = 0.0, square = 0.0, direct = 0.0;
+    double sum = 0.0, direct = 0.0;
     bool is_surface = false;
     for (uint32_t i = 0; i < SAMPLES; ++i) {
         pixel_sample whole, less;
@@ -57,7 +60,6 @@ static double look_at_samples(tally *t, int x, int y)
         t->bounce_rays += (double)(counts.bounce_rays - fewer.bounce_rays) / SAMPLES;
         t->sky_rays += (double)fewer.bounce_rays / SAMPLES;
         sum += level(whole.light.smooth);
-        square += level(whole.light.smooth) * level(whole.light.smooth);
         direct += level(less.light.smooth);
         is_surface = is_surface || whole.depth > 0.0F;
     }
@@ -66,10 +68,7 @@ static double look_at_samples(tally *t, int x, int y)
         t->bounced += 1.0;
     else if (sum > 0.0)
         t->bounced += (sum - direct) * (sum - direct) / (sum * sum);
-    const double mean = sum / SAMPLES;
-    if (mean > 0.0)
-        t->noise += fmax(square - sum * mean, 0.0) / (SAMPLES - 1) / (mean * mean);
-    return mean;
+    return sum / SAMPLES;
 }
 
 /* ---- lights at the first surface ---- */
@@ -132,12 +131,16 @@ static void note_light(tally *t, int index, double probability, const vertex *v,
     }
     if (is_shape(w, index, v))
         to->kind = GLINT_PLAN_LIGHT_SHAPE;
-    const double evals = (double)(counts.glint_evals + counts.smooth_evals);
-    pair->seen += (float)evals;
+    const double bright = level(seen.smooth), share = bright / pixel;
+    pair->seen += (float)(counts.glint_evals + counts.smooth_evals);
+    pair->part += (float)(share * share / probability);
     if (!(facets.count > 0.0F))
         return;
-    const double tiles = (double)w->glint_side * (double)w->glint_side, share = level(seen.smooth) / pixel;
-    const uint32_t bin = glint_plan_bin((float)((double)facets.count * tiles * (double)facets.lit_probability));
+    const double tiles = (double)w->glint_side * (double)w->glint_side;
+    const double lit = (double)facets.count * tiles * (double)facets.lit_probability;
+    const uint32_t bin = glint_plan_bin((float)lit);
+    if (lit > 0.0)
+        t->out->sparks[pair - t->out->pairs] += bright * bright / (lit * probability);
     pair->share[bin] += (float)(share * share / probability);
     pair->rate[bin] += (float)counts.glint_evals;
 }
@@ -179,6 +182,7 @@ static void look_at_pixel(tally *t, int x, int y)
     vertex v;
     const double pixel = look_at_samples(t, x, y);
     ++t->pixels;
+    t->square += pixel * pixel;
     if (!(pixel > 0.0) || !integrate_first(t->world, x, y, 0, &v))
         return;
     const sampler random = sampler_make(x, y, 0, t->world->seed);
@@ -195,96 +199,6 @@ static void look_at_pixel(tally *t, int x, int y)
 
 /* ---- the summary ---- */
 
-static uint32_t count_textures(const scene_material *m, uint32_t *normal_maps)
-{
-    const scene_texture *list[SCENE_MATERIAL_TEXTURES];
-    uint32_t count = 0;
-    scene_material_textures(m, list);
-    for (int i = 0; i < SCENE_MATERIAL_TEXTURES; ++i) {
-        const bool is_normal = list[i] == &m->normal_texture || list[i] == &m->clearcoat_normal_texture;
-        const bool is_example = list[i] == &m->glint.example_texture || list[i] == &m->coat_glint.example_texture;
-        if (list[i]->image == SCENE_NONE || is_example)
-            continue;
-        *normal_maps += is_normal;
-        count += !is_normal;
-    }
-    return count;
-}
-
-static void begin_materials(survey *out, const scene *s, const preview_options *o)
-{
-    for (int i = 0; i < s->material_count; ++i) {
-        const scene_material *const from = &s->materials[i];
-        glint_material_options *const base = &out->options[2 * i], *const coat = base + 1;
-        *base = scene_base_options(from, materials_model(s, i, SCENE_LAYER_BASE, o->model));
-        *coat = scene_coat_options(from, materials_model(s, i, SCENE_LAYER_CLEARCOAT, o->model));
-        glint_plan_material *const m = &out->materials[i];
-        *m = (glint_plan_material){ .name = from->name,
-                                    .base = base,
-                                    .coat = from->clearcoat > 0.0F ? coat : NULL,
-                                    .is_cut_out = from->alpha_mode != SCENE_ALPHA_OPAQUE };
-        m->texture_count = count_textures(from, &m->normal_map_count);
-        m->alpha.least = m->facets_per_m2.least = m->footprint_m2.least = HUGE_VALF;
-    }
-}
-
-static void begin_lights(survey *out, const world *w)
-{
-    const scene *const s = w->shader.scene;
-    for (int i = 0; i < w->light_count; ++i) {
-        char *const name = out->light_names[i].text;
-        const size_t size = sizeof out->light_names[i].text;
-        if (i < s->light_count && s->lights[i].name != NULL && s->lights[i].name[0] != '\0')
-            snprintf(name, size, "light '%s'", s->lights[i].name);
-        else
-            snprintf(name, size, "light %d", i);
-        out->lights[i] =
-            (glint_plan_light){ .name = name,
-                                .kind = light_is_area(&w->lights[i]) ? GLINT_PLAN_LIGHT_SHAPE : GLINT_PLAN_LIGHT_CAP };
-    }
-}
-
-static bool has_surroundings(const world *w)
-{
-    return w->environment != NULL || w->emitters != NULL;
-}
-
-static void begin_surroundings(survey *out, const world *w)
-{
-    if (!has_surroundings(w))
-        return;
-    survey_name *const name = &out->light_names[w->light_count];
-    snprintf(name->text, sizeof name->text, "%s", w->environment != NULL ? "the environment" : "what glows");
-    out->lights[w->light_count] =
-        (glint_plan_light){ .name = name->text,
-                            .kind = GLINT_PLAN_LIGHT_SURROUNDINGS,
-                            .patch_count = w->environment != NULL ? (uint32_t)w->environment->patch_count
-                                                                  : (uint32_t)w->emitters->count };
-}
-
-/* most_pairs: that can be seen. */
-static bool begin(survey *out, const world *w, const preview_options *o, int light_count, size_t most_pairs, report *r)
-{
-    const scene *const s = w->shader.scene;
-    const size_t material_count = (size_t)s->material_count + 1U, lights = (size_t)light_count + 1U;
-    *out = (survey){ .summary = GLINT_PLAN_SUMMARY_INIT };
-    out->options = calloc(2 * material_count, sizeof *out->options);
-    out->materials = calloc(material_count, sizeof *out->materials);
-    out->lights = calloc(lights, sizeof *out->lights);
-    out->light_names = calloc(lights, sizeof *out->light_names);
-    out->pairs = calloc(most_pairs, sizeof *out->pairs);
-    out->pair_of = calloc(material_count * lights, sizeof *out->pair_of);
-    if (out->options == NULL || out->materials == NULL || out->lights == NULL || out->light_names == NULL ||
-        out->pairs == NULL || out->pair_of == NULL) {
-        survey_free(out);
-        return report_error(r, "no memory to look at %zu materials under %zu lights", material_count, lights);
-    }
-    begin_materials(out, s, o);
-    begin_lights(out, w);
-    begin_surroundings(out, w);
-    return true;
-}
-
 /* By material, then by light. */
 static int compare_pairs(const void *a, const void *b)
 {
@@ -297,12 +211,17 @@ static int compare_pairs(const void *a, const void *b)
 static void end_pairs(survey *s, const tally *t)
 {
     const float inverse = 1.0F / (float)t->pixels;
+    double square = t->square;
     uint32_t kept = 0;
+    for (uint32_t i = 0; i < s->summary.pair_count; ++i)
+        square += s->sparks[i];
     for (uint32_t i = 0; i < s->summary.pair_count; ++i) {
         glint_plan_pair pair = s->pairs[i];
         if (!(pair.seen > 0.0F))
             continue;
         pair.seen *= inverse;
+        pair.part *= inverse;
+        pair.sparks = square > 0.0 ? (float)(s->sparks[i] / square) : 0.0F;
         for (int b = 0; b < GLINT_PLAN_BINS; ++b) {
             pair.share[b] *= inverse;
             pair.rate[b] *= inverse;
@@ -313,7 +232,32 @@ static void end_pairs(survey *s, const tally *t)
     qsort(s->pairs, kept, sizeof *s->pairs, compare_pairs);
 }
 
-static void end(survey *s, const tally *t, const preview_options *o)
+/* Fewer samples than there are tiles would show other facets. */
+static bool shows_facets(const survey *s)
+{
+    for (uint32_t i = 0; i < s->summary.pair_count; ++i)
+        for (int b = 0; b < GLINT_PLAN_BINS; ++b)
+            if (s->pairs[i].rate[b] > 0.0F)
+                return true;
+    return false;
+}
+
+static void end_samples(survey *s, const tally *t, const survey_noise *noise, const preview_options *o)
+{
+    glint_plan_summary *const to = &s->summary;
+    to->samples_per_pixel = (uint32_t)t->world->spp;
+    to->tiles_per_pixel = (uint32_t)(t->world->glint_side * t->world->glint_side);
+    to->noise = (float)noise->deviation;
+    to->noise_samples = noise->samples;
+    to->noise_fall = (float)noise->fall;
+    to->noise_spread = (float)noise->spread;
+    if (o->spp > 0)
+        return;
+    to->samples_per_pixel = shows_facets(s) ? to->tiles_per_pixel : LEAST_SAMPLES;
+    to->most_samples = MOST_SAMPLES;
+}
+
+static void end(survey *s, const tally *t, const survey_noise *noise, const preview_options *o)
 {
     const world *const w = t->world;
     glint_plan_summary *const to = &s->summary;
@@ -322,60 +266,77 @@ static void end(survey *s, const tally *t, const preview_options *o)
     to->pairs = s->pairs;
     to->material_count = (uint32_t)w->shader.scene->material_count;
     to->light_count = (uint32_t)t->light_count;
-    to->samples_per_pixel = (uint32_t)w->spp;
-    to->tiles_per_pixel = (uint32_t)(w->glint_side * w->glint_side);
     to->pixel_count = (uint32_t)t->pixels;
     to->bounces = (uint32_t)w->bounces;
     to->error_budget = (float)o->accuracy;
     if (t->pixels == 0)
         return;
     end_pairs(s, t);
+    end_samples(s, t, noise, o);
     to->bounce_rays = (float)fmax(t->bounce_rays / t->pixels, 0.0);
     to->sky_rays = (float)(t->sky_rays / t->pixels);
     to->bounced = (float)sqrt(fmax(t->bounced / t->pixels, 0.0));
-    to->noise = (float)sqrt(t->noise / t->pixels);
     for (uint32_t i = 0; i < to->material_count; ++i)
         s->materials[i].seen /= (float)t->pixels;
 }
 
-/* Columns and rows of pixels to look at. */
-static void choose_grid(const preview_options *o, int *columns, int *rows)
+/* Samples of each pixel by which noise is told. */
+static int noise_samples(const preview_options *o)
 {
-    const double pixels = (double)o->width * o->height;
-    const double wanted = fmin(fmax(pixels * o->spp / RENDERED_FOR_ONE / (2 * SAMPLES), LEAST_PIXELS), MOST_PIXELS);
+    return o->spp > 0 && o->spp < SURVEY_MOST_SAMPLES ? o->spp : SURVEY_MOST_SAMPLES;
+}
+
+/* Columns and rows of pixels to look at. */
+static void choose_grid(const world *w, const preview_options *o, int *columns, int *rows)
+{
+    const double pixels = (double)o->width * o->height, each = 2 * (SAMPLES + noise_samples(o));
+    const double wanted = fmin(fmax(pixels * w->spp / RENDERED_FOR_ONE / each, LEAST_PIXELS), MOST_PIXELS);
     *columns = (int)fmin(fmax(sqrt(wanted * o->width / o->height), 1.0), o->width);
     *rows = (int)fmin(fmax(wanted / *columns, 1.0), o->height);
+}
+
+/* One in each cell of a grid. */
+static survey_place place_in(int column, int row, int columns, int rows, const preview_options *o)
+{
+    const uint32_t jitter = hash_combine(hash_combine(hash_mix(1U), (uint32_t)column), (uint32_t)row);
+    const double u = (column + (double)(jitter >> 16) * 0x1p-16) / columns;
+    const double v = (row + (double)(jitter & 0xffffU) * 0x1p-16) / rows;
+    return (survey_place){ (int)(u * o->width), (int)(v * o->height) };
+}
+
+static bool look(tally *t, const preview_options *o, int columns, int rows, report *r)
+{
+    survey_noise noise;
+    survey_place *const places = calloc((size_t)columns * (size_t)rows, sizeof *places);
+    if (places == NULL)
+        return report_error(r, "no memory to look at %d x %d pixels", columns, rows);
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            survey_place *const at = &places[y * columns + x];
+            *at = place_in(x, y, columns, rows, o);
+            look_at_pixel(t, at->x, at->y);
+        }
+    }
+    const double enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0;
+    const bool done = survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
+    free(places);
+    if (done)
+        end(t->out, t, &noise, o);
+    return done;
 }
 
 bool survey_make(const world *w, const preview_options *o, survey *out, report *r)
 {
     world direct = *w;
-    tally t = { .world = w, .direct = &direct, .out = out, .light_count = w->light_count + has_surroundings(w) };
+    tally t = { .world = w, .direct = &direct, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
     int columns, rows;
-    choose_grid(o, &columns, &rows);
-    if (!begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
+    choose_grid(w, o, &columns, &rows);
+    if (!survey_begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
         return false;
     direct.bounces = 0;
     direct.emitters = NULL;
-    for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-            const uint32_t jitter = hash_combine(hash_combine(hash_mix(1U), (uint32_t)x), (uint32_t)y);
-            const double u = (x + (double)(jitter >> 16) * 0x1p-16) / columns;
-            const double v = (y + (double)(jitter & 0xffffU) * 0x1p-16) / rows;
-            look_at_pixel(&t, (int)(u * o->width), (int)(v * o->height));
-        }
-    }
-    end(out, &t, o);
-    return true;
-}
-
-void survey_free(survey *s)
-{
-    free(s->options);
-    free(s->materials);
-    free(s->lights);
-    free(s->light_names);
-    free(s->pairs);
-    free(s->pair_of);
-    *s = (survey){ 0 };
+    if (look(&t, o, columns, rows, r))
+        return true;
+    survey_free(out);
+    return false;
 }

@@ -14,6 +14,7 @@ typedef struct survey {
     glint_plan_material *materials;
     glint_plan_light *lights; /* those of the world, then surroundings where there are any */
     glint_plan_pair *pairs;
+    double *sparks;    /* of each pair: sum over the pixels of light^2 / (N p) */
     uint32_t *pair_of; /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
     survey_name *light_names;
 } survey;
@@ -21,5 +22,10 @@ typedef struct survey {
 /* w leaves nothing out. The same for every number of threads and for every tile of a picture. */
 bool survey_make(const world *w, const preview_options *o, survey *out, report *r);
 void survey_free(survey *s);
+
+/* survey_scene.c: materials and lights, and room for as many pairs of them as can be seen. On failure *out is zeroed.
+ */
+bool survey_begin(survey *out, const world *w, const preview_options *o, int light_count, size_t most_pairs, report *r);
+bool survey_has_surroundings(const world *w);
 
 #endif

@@ -148,8 +148,8 @@ static void measure_errors(study_run *run, law_error worst[SAMPLERS])
         return;
     }
     study_table(run, "law.csv", "sampler,trials,p,mean,variance,mean_bar,ks,draws");
-    for (int k = 0; k < SAMPLERS && study_goes_on(run, 0.7 * k / SAMPLERS); k++)
-        for (int i = 0; i < TRIALS; i++)
+    for (int k = 0; k < SAMPLERS; k++)
+        for (int i = 0; i < TRIALS && study_goes_on(run, 0.7 * (k + (double)i / TRIALS) / SAMPLERS); i++)
             for (int j = 0; j < CHANCES; j++)
                 if (trials_of[i] * chances[j] >= 0.1F)
                     measure_case(run, k, trials_of[i], chances[j], groups, draws, &worst[k]);

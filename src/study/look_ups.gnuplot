@@ -12,7 +12,7 @@ do for [lit in '1 30'] {
     plot [0.1:1000] [0.004:30] for [k = 1:3] name = word('"all 48" "one drawn by its weight" "the nearest"', k) \
         of(name) using 4:(at(lit + 0)):6 with yerrorlines linetype k title name
     unset ylabel
-    set label 1 'Choose all 48: one drawn costs half as much and needs sixteen times the samples for the same error.' \
+    set label 1 'Choose all 48: one drawn costs six tenths and needs sixteen times the samples for the same error.' \
         at screen 0.5, screen 0.03 center font ',10'
 }
 unset multiplot

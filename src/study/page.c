@@ -33,6 +33,32 @@ static void put_escaped(output_file *f, const char *text)
     }
 }
 
+/* Where the exponent ends that printf wrote behind this digit, "e-05"; NULL: there is none. */
+static const char *exponent_at(const char *text, int *exponent)
+{
+    if (text[0] < '0' || text[0] > '9' || text[1] != 'e' || (text[2] != '-' && text[2] != '+'))
+        return NULL;
+    char *end;
+    *exponent = (int)strtol(text + 2, &end, 10);
+    return end > text + 3 ? end : NULL;
+}
+
+/* Escaped, and 6.1e-05 as people write it. */
+static void put_sentence(output_file *f, const char *text)
+{
+    char power[64], one[2] = { '\0', '\0' };
+    while (*text) {
+        int exponent = 0;
+        const char *const end = exponent_at(text, &exponent);
+        one[0] = *text;
+        put_escaped(f, one);
+        snprintf(power, sizeof power, " · 10<sup>%s%d</sup>", exponent < 0 ? "−" : "", abs(exponent));
+        if (exponent != 0)
+            put(f, power);
+        text = end ? end : text + 1;
+    }
+}
+
 /* before, the text, after. */
 static void put_between(output_file *f, const char *before, const char *text, const char *after)
 {
@@ -127,7 +153,8 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     for (size_t i = 0; i < o->line_count; ++i) {
         const study_line *const line = &o->lines[i];
         put(f, !line->is_check ? "<li>" : line->holds ? "<li class=\"holds\">" : "<li class=\"fails\">");
-        put_between(f, "", line->text, "</li>\n");
+        put_sentence(f, line->text);
+        put(f, "</li>\n");
     }
     put(f, "</ul>\n");
     put_figures(f, folder, o);

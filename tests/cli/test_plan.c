@@ -76,6 +76,44 @@ static void render_says_what_was_planned(void **state)
     outcome_free(&o);
 }
 
+/* Of the plane under a sky, of which each sample sees another part. */
+static double chosen_samples(const char *accuracy, const char *option, const char *value)
+{
+    outcome o = glint_run(NULL, "render", "plane.gltf", "-o", "a.exr", "--size", "32x32", "--light-set", "sun-and-sky",
+                          "--accuracy", accuracy, "--json", option, value);
+    json_t *d = printed_document(&o);
+    const double spp = json_number_value(json_object_get(d, "spp"));
+    const json_t *const plan = json_object_get(d, "plan");
+    if (plan)
+        assert_true(json_number_value(json_object_get(plan, "samples")) == spp);
+    /* What is planned is what is spent. */
+    assert_true(json_number_value(json_object_get(json_object_get(d, "rays"), "camera")) == 32.0 * 32.0 * spp);
+    json_decref(d);
+    outcome_free(&o);
+    return spp;
+}
+
+/* Without --spp as many samples as the accuracy takes; with it those; without either, or without a budget, sixteen. */
+static void accuracy_chooses_samples_that_nobody_asked_for(void **state)
+{
+    (void)state;
+    const double rough = chosen_samples("0.2", "--seed", "1"), fine = chosen_samples("0.01", "--seed", "1");
+    assert_true(rough >= 4.0 && fine > rough && fine <= 4096.0);
+    assert_true(chosen_samples("0.02", "--spp", "8") == 8.0);
+    assert_true(chosen_samples("0", "--seed", "1") == 16.0);
+    outcome o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--json");
+    json_t *d = printed_document(&o);
+    assert_true(json_number_value(json_object_get(d, "spp")) == 16.0);
+    json_decref(d);
+    outcome_free(&o);
+    /* What cannot be met is said with the most samples that are taken by themselves. */
+    o = glint_run(NULL, "plan", "plane.gltf", "--size", "32x32", "--light-set", "sun-and-sky", "--accuracy", "1e-5");
+    assert_exit(&o, 0);
+    assert_says(o.out, "4096 ");
+    assert_says(o.out, "the most that is chosen");
+    outcome_free(&o);
+}
+
 /* The edge of the plane alone leaves more noise than a millionth. */
 static void budget_that_is_not_met_is_said_before_rendering(void **state)
 {
@@ -92,6 +130,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(plan_is_a_table_and_a_document, workplace_enter_plane, workplace_leave),
         cmocka_unit_test_setup_teardown(render_says_what_was_planned, workplace_enter_plane, workplace_leave),
+        cmocka_unit_test_setup_teardown(accuracy_chooses_samples_that_nobody_asked_for, workplace_enter_plane,
+                                        workplace_leave),
         cmocka_unit_test_setup_teardown(budget_that_is_not_met_is_said_before_rendering, workplace_enter_plane,
                                         workplace_leave),
     };

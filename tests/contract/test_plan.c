@@ -124,6 +124,144 @@ static void many_samples_allow_single_draws(void **state)
     glint_plan_destroy(plan);
 }
 
+/* Noise of .3 a sample, independent: with N samples .09 / N, of a budget of .0004. Facets that show or that fade cost
+ * and leave nothing, so the fewest powers of two do: 225 samples make 256. */
+static void fewest_samples_are_taken_whose_noise_is_within_the_budget(void **state)
+{
+    (void)state;
+    small_scene s;
+    fill(&s, 10.0F, 16);
+    s.summary.most_samples = 4096;
+    s.summary.noise = 0.3F;
+    glint_plan *plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 256);
+    assert_true(glint_plan_result(plan).is_met);
+    assert_string_equal(find(plan, GLINT_EFFECT_SAMPLES)->choice, "256");
+    glint_plan_destroy(plan);
+
+    /* Known of 16 samples, .05, and falling as samples^-1.5: (.05 / .02)^(2 / 1.5) = 3.4 times as many. */
+    s.summary.noise = 0.05F;
+    s.summary.noise_samples = 16;
+    s.summary.noise_fall = 1.5F;
+    plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 64);
+    glint_plan_destroy(plan);
+    /* A faster fall is not believed of more samples than were looked at, and an uncertain one is kept clear of. */
+    s.summary.noise_fall = 3.0F;
+    plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 64);
+    glint_plan_destroy(plan);
+    s.summary.noise_spread = 0.5F;
+    plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 128);
+    glint_plan_destroy(plan);
+
+    /* No number is enough: the most, and it is said. */
+    s.summary.most_samples = 32;
+    plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 32);
+    assert_false(glint_plan_result(plan).is_met);
+    assert_true(glint_plan_result(plan).enough_samples > 32);
+    glint_plan_destroy(plan);
+
+    /* Nothing varies: the fewest. */
+    s.summary.most_samples = 4096;
+    s.summary.noise = 0.0F;
+    plan = plan_of(&s);
+    assert_int_equal(glint_plan_result(plan).samples, 16);
+    glint_plan_destroy(plan);
+}
+
+/* What noise leaves of the budget may be left out: with any other number of samples whose noise fits, a plan for what
+ * it leaves is no cheaper. */
+static void cheapest_number_of_samples_is_taken(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    for (int k = 0; k < 2000; k++) {
+        small_scene s;
+        fill(&s, (float)random_log_between(&random, 1.0, 1e6), 16);
+        s.summary.error_budget = (float)random_log_between(&random, 0.01, 0.3);
+        s.summary.noise = (float)random_log_between(&random, 0.01, 1.0);
+        s.light.kind = (glint_plan_light_kind)(random_bits(&random) % 3);
+        s.summary.most_samples = 4096;
+        glint_plan *plan = plan_of(&s);
+        const glint_plan_outcome chosen = glint_plan_result(plan);
+        glint_plan_destroy(plan);
+        const double budget = (double)s.summary.error_budget, one = (double)s.summary.noise;
+        s.summary.most_samples = 0;
+        s.summary.noise = 0.0F;
+        for (uint32_t n = 16; n <= 4096; n *= 2) {
+            if (!(one * one / n < budget * budget))
+                continue;
+            assert_true(chosen.is_met);
+            s.summary.samples_per_pixel = n;
+            s.summary.error_budget = (float)sqrt(budget * budget - one * one / n);
+            plan = plan_of(&s);
+            const double cost = (double)glint_plan_result(plan).ns_per_sample * n;
+            glint_plan_destroy(plan);
+            if (!((double)chosen.ns_per_sample * chosen.samples <= cost * 1.001))
+                fail_msg("%u samples at %g ns, but %u at %g", chosen.samples, (double)chosen.ns_per_sample, n,
+                         cost / n);
+        }
+    }
+}
+
+/* A lamp whose shape shows, N p facets lit in every pixel. */
+static void fill_shape(small_scene *s, float lit_facets, float budget)
+{
+    fill(s, lit_facets, 16);
+    s->light.kind = GLINT_PLAN_LIGHT_SHAPE;
+    s->pair.part = 1.0F;
+    s->pair.sparks = 1.0F / lit_facets;
+    s->summary.error_budget = budget;
+}
+
+static const char *way_to_light(const small_scene *s, float *error)
+{
+    static char choice[24];
+    glint_plan *plan = plan_of(s);
+    const glint_decision *const d = find(plan, GLINT_EFFECT_LIGHT);
+    glint_material_options cut = s->options;
+    glint_plan_cut(plan, 0, &cut);
+    snprintf(choice, sizeof choice, "%s", d->choice);
+    *error = d->error;
+    assert_int_equal(cut.area_light_method,
+                     strcmp(choice, "LTC") == 0 ? GLINT_AREA_LIGHT_FAST : GLINT_AREA_LIGHT_EXACT);
+    glint_plan_destroy(plan);
+    return choice;
+}
+
+/* What a fit is off by turns e N p of the N p lit facets on and off, and the pixel varies by e / (N p): far more than
+ * by e^2 where few are lit, and less where a hundred thousand are. */
+static void fit_stands_for_a_shape_unless_it_turns_few_facets_on_and_off(void **state)
+{
+    (void)state;
+    small_scene s;
+    float few, many;
+    fill_shape(&s, 0.01F, 0.02F);
+    assert_string_equal(way_to_light(&s, &few), "quadrature");
+    fill_shape(&s, 1e5F, 0.02F);
+    assert_string_equal(way_to_light(&s, &many), "LTC");
+    /* The error of a fit by itself is a few thousandths at most. */
+    assert_true(many > 0.0F && many < 0.004F);
+    fill_shape(&s, 1.0F, 0.2F);
+    assert_string_equal(way_to_light(&s, &few), "LTC");
+    assert_true(few > 2.0F * many && few < 0.1F);
+    fill_shape(&s, 1e5F, 0.0F);
+    assert_string_equal(way_to_light(&s, &few), "quadrature");
+    /* The light of a lamp that brings a hundredth of the pixel. */
+    fill_shape(&s, 1e5F, 1e-4F);
+    assert_string_equal(way_to_light(&s, &few), "quadrature");
+    s.pair.part = 1e-4F;
+    s.pair.sparks *= 1e-4F;
+    assert_string_equal(way_to_light(&s, &few), "LTC");
+    /* No fit knows a brushed surface. */
+    fill_shape(&s, 1e5F, 0.2F);
+    s.options.surface.alpha_x *= 0.5F;
+    assert_string_equal(way_to_light(&s, &few), "quadrature");
+}
+
 static void nothing_is_left_out_without_a_budget(void **state)
 {
     (void)state;
@@ -174,6 +312,8 @@ static void errors_stay_within_the_budget(void **state)
         s.summary.bounced = (float)random_log_between(&random, 1e-6, 1.0);
         s.summary.noise = (float)random_log_between(&random, 1e-3, 10.0);
         s.light.kind = (glint_plan_light_kind)(random_bits(&random) % 3);
+        s.pair.part = (float)random_between(&random, 0.0, 1.0);
+        s.pair.sparks = (float)random_log_between(&random, 1e-9, 1e3);
         s.light.blocked_rays = random_bits(&random) % 2 ? 0U : 7U;
         s.light.shadow_rays = (uint32_t)random_log_between(&random, 7.0, 1e6);
         s.options.color_variation = random_bits(&random) % 2 ? 0.0F : 0.9F;
@@ -217,6 +357,14 @@ static void impossible_summaries_are_refused_by_name(void **state)
     s.summary.size = 4;
     assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_ARGUMENT);
     assert_non_null(strstr(message, "GLINT_PLAN_SUMMARY_INIT"));
+    fill(&s, 1.0F, 16);
+    s.summary.most_samples = 8;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_RANGE);
+    assert_non_null(strstr(message, "most_samples is 8"));
+    fill(&s, 1.0F, 16);
+    s.summary.noise_fall = 0.5F;
+    assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_RANGE);
+    assert_non_null(strstr(message, "noise_fall"));
     fill(&s, 1.0F, 16);
     s.material.base = NULL;
     assert_int_equal(glint_plan_create(&s.summary, &plan, message, sizeof message), GLINT_ERROR_ARGUMENT);
@@ -391,6 +539,9 @@ int main(void)
         cmocka_unit_test(bins_are_powers_of_two),
         cmocka_unit_test(few_facets_are_counted_and_many_are_smooth),
         cmocka_unit_test(many_samples_allow_single_draws),
+        cmocka_unit_test(fewest_samples_are_taken_whose_noise_is_within_the_budget),
+        cmocka_unit_test(cheapest_number_of_samples_is_taken),
+        cmocka_unit_test(fit_stands_for_a_shape_unless_it_turns_few_facets_on_and_off),
         cmocka_unit_test(nothing_is_left_out_without_a_budget),
         cmocka_unit_test(shadows_stay_whatever_a_survey_has_not_seen),
         cmocka_unit_test(errors_stay_within_the_budget),

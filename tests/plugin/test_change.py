@@ -297,9 +297,10 @@ class Plan(unittest.TestCase):
         from glint import plan_report
 
         self.assertEqual([plan_report.percent(x) for x in (0.0, 0.0001, 0.034, 0.42)], ["", "<.1 %", "3.4 %", "42 %"])
-        outcome = plan_report.outcome_of(["500", "0.01", "0.3", "missed", "256"])
-        lines = plan_report.conclusion(outcome, 0.02, 2e6)
-        self.assertEqual(lines, ["About 1 s of one core; left out 0.01, noise 0.3", "The accuracy of 0.02 takes 256 samples"])
+        outcome = plan_report.outcome_of(["500", "0.01", "0.3", "missed", "256", "16"])
+        lines = plan_report.conclusion(outcome, 0.02, 125000)
+        self.assertEqual(lines, ["16 samples, about 1 s of one core; left out 0.01, noise 0.3",
+                                 "The accuracy of 0.02 takes 256 samples"])
 
 
 blender_case.run(Changes, Times, Plan)

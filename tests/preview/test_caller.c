@@ -262,6 +262,36 @@ static void cancelling_from_another_thread_ends_soon_and_can_be_taken_back(void 
     glint_preview_scene_destroy(s);
 }
 
+/* Samples that an accuracy is asked to choose are those of a picture that is told their number. */
+static void a_picture_takes_as_many_samples_as_its_accuracy_asks_for(void **state)
+{
+    (void)state;
+    square_scene q;
+    make_square(&q);
+    glint_preview_scene *const s = create(&q.options);
+    const glint_preview_camera camera = from_above(1.2F);
+    glint_preview_picture_options o = small(&camera);
+    glint_preview_picture *p;
+    char message[256];
+    o.samples = 0;
+    o.accuracy = 0.0F;
+    assert_int_equal(glint_preview_picture_create(s, &o, &p, message, sizeof message), GLINT_PREVIEW_BAD_INPUT);
+    assert_non_null(strstr(message, "expected 1"));
+    o.accuracy = 0.05F;
+    assert_int_equal(glint_preview_picture_create(s, &o, &p, message, sizeof message), GLINT_PREVIEW_OK);
+    const int32_t chosen = glint_preview_picture_samples(p);
+    assert_true(chosen >= 4);
+    refine(p, chosen);
+    assert_int_equal(glint_preview_picture_refine(p, chosen + 1, NULL, 0), GLINT_PREVIEW_BAD_INPUT);
+    o.samples = chosen;
+    glint_preview_picture *const told = begin(s, &o);
+    assert_int_equal(glint_preview_picture_samples(told), chosen);
+    assert_int_equal(glint_preview_picture_samples(NULL), 0);
+    glint_preview_picture_destroy(told);
+    glint_preview_picture_destroy(p);
+    glint_preview_scene_destroy(s);
+}
+
 static glint_preview_result plan_of(const glint_preview_scene *s, float accuracy, char *text, size_t size)
 {
     const glint_preview_camera camera = from_above(0.8F);
@@ -397,6 +427,7 @@ int main(void)
         cmocka_unit_test(flakes_are_counted_in_the_pass_for_it),
         cmocka_unit_test(steps_of_any_size_give_the_same_bits),
         cmocka_unit_test(cancelling_from_another_thread_ends_soon_and_can_be_taken_back),
+        cmocka_unit_test(a_picture_takes_as_many_samples_as_its_accuracy_asks_for),
         cmocka_unit_test(the_plan_says_what_a_budget_leaves_out),
         cmocka_unit_test(a_caller_can_check_that_it_speaks_the_same_language),
         cmocka_unit_test(scenes_and_pictures_leave_no_memory_behind),

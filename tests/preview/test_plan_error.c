@@ -92,6 +92,104 @@ static void budget_is_met_against_many_samples_or_the_plan_says_no(void **state)
     assert_true(met > 2);
 }
 
+/* ---- as many samples as the budget takes ---- */
+
+enum { TRUTH_SAMPLES = 128, FIRST_SMOOTH = 4 }; /* of each of two references; the channel smooth.R of a film with all */
+
+/* Over pixels, of squares relative to the smooth light, of dark ones to a tenth of the picture's mean, as the plan has
+ * its noise. */
+typedef struct squares {
+    double mean, deviation; /* deviation: of the mean */
+} squares;
+
+static double mean_of(const image *i, int pixel, int first)
+{
+    const float *const p = &i->pixels[(size_t)pixel * (size_t)i->channel_count + (size_t)first];
+    return ((double)p[0] + (double)p[1] + (double)p[2]) / 3.0;
+}
+
+/* Of what a is off the mean of the two references; a NULL: of what that mean is off by itself, half of their
+ * difference.
+ */
+static squares squares_of(const image *a, const image truth[2])
+{
+    squares s = { 0.0, 0.0 };
+    double picture = 0.0;
+    const int count = truth[0].width * truth[0].height;
+    for (int i = 0; i < count; ++i)
+        picture += mean_of(&truth[0], i, FIRST_SMOOTH) / count;
+    for (int i = 0; i < count; ++i) {
+        const double one = mean_of(&truth[0], i, 0), two = mean_of(&truth[1], i, 0);
+        const double smooth = 0.5 * (mean_of(&truth[0], i, FIRST_SMOOTH) + mean_of(&truth[1], i, FIRST_SMOOTH));
+        const double e = (a ? mean_of(a, i, 0) - 0.5 * (one + two) : 0.5 * (one - two)) / fmax(smooth, 0.1 * picture);
+        s.mean += e * e / count;
+        s.deviation += e * e * e * e / count;
+    }
+    s.deviation = sqrt(fmax(s.deviation - s.mean * s.mean, 0.0) / count);
+    return s;
+}
+
+static void make_truth(const scene *s, preview_options o, image truth[2])
+{
+    o.aov = true;
+    for (uint32_t k = 0; k < 2; ++k) {
+        o.seed = 77U + k;
+        truth[k] = render(s, o, 0.0, TRUTH_SAMPLES);
+    }
+}
+
+/* The noise was told from 256 pixels and the picture has 576, so a mean of squares that is measured here is uncertain
+ * by 1.5 times less than the one that the plan went by. A few pixels at the rim of a shadow make most of it. */
+static double sigma_of(const squares *measured)
+{
+    return measured->deviation * sqrt(1.0 + 2.25);
+}
+
+/* Against many more samples of everything, and others: what is left out and the noise of as many samples as were chosen
+ * are within the budget together, and the noise is what was foreseen; nowhere is twice as much foreseen, which would
+ * take four times the samples: where so few are taken that the truth has four times as many. */
+static void chosen_samples_meet_the_budget_and_are_not_many_more(void **state)
+{
+    (void)state;
+    static const double budgets[] = { 0.1, 0.02 };
+    int more = 0;
+    for (int i = 0; i < plan_case_count(); ++i) {
+        scene_camera camera;
+        preview_options o;
+        scene s = plan_case(i, &camera, &o);
+        image truth[2];
+        make_truth(&s, o, truth);
+        const double of_truth = squares_of(NULL, truth).mean;
+        for (int k = 0; k < 2; ++k) {
+            image chosen = render(&s, o, budgets[k], 0);
+            const glint_plan_outcome plan = foreseen;
+            image whole = render(&s, o, 0.0, (int)plan.samples);
+            const squares both = squares_of(&chosen, truth), noise = squares_of(&whole, truth);
+            const double found = sqrt(fmax(noise.mean - of_truth, 0.0)), told = (double)plan.noise;
+            printf("%-16s budget %.2f: %4u samples, off by %.4f; noise %.4f, foreseen %.4f, truth %.4f\n",
+                   plan_case_name(i), budgets[k], plan.samples, sqrt(both.mean), found, told, sqrt(of_truth));
+            assert_true(plan.is_met && plan.samples >= 16);
+            const double over = (both.mean - of_truth - budgets[k] * budgets[k]) / fmax(sigma_of(&both), 1e-12);
+            if (!(over <= 4.0))
+                fail_msg("%s: off by %g, expected at most %g: %.1f sigmas", plan_case_name(i), sqrt(both.mean),
+                         budgets[k], over);
+            const double more_noise = (found * found - told * told) / fmax(sigma_of(&noise), 1e-12);
+            const bool is_waste = 2 * plan.samples <= TRUTH_SAMPLES && told > 2.0 * found + 1e-3;
+            if (!(more_noise <= 4.0) || is_waste)
+                fail_msg("%s: noise %g, foreseen %g: %.1f sigmas", plan_case_name(i), found, told, more_noise);
+            more += plan.samples > 16;
+            image_free(&whole);
+            image_free(&chosen);
+        }
+        image_free(&truth[0]);
+        image_free(&truth[1]);
+        scene_free(&s);
+    }
+    assert_true(more >= 3);
+}
+
+/* ---- no budget ---- */
+
 /* Without a budget lights with a shape get the integral that the smallest budget gets, and not the fit. */
 static void no_budget_is_the_limit_of_small_ones(void **state)
 {
@@ -121,6 +219,7 @@ int main(void)
         cmocka_unit_test(what_is_left_out_stays_within_the_budget),
         cmocka_unit_test(no_budget_is_the_limit_of_small_ones),
         cmocka_unit_test(budget_is_met_against_many_samples_or_the_plan_says_no),
+        cmocka_unit_test(chosen_samples_meet_the_budget_and_are_not_many_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

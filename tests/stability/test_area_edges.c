@@ -4,6 +4,7 @@
 #include "traps.h"
 
 #include "area_cases.h"
+#include "lobe_truth.h"
 
 #define PI AREA_PI
 
@@ -267,6 +268,45 @@ static void lights_all_around_are_alike(void **state)
         }
 }
 
+/* The area of facets that mirror the view above the horizon, over that of all: the midpoint rule over half vectors. */
+static double facets_that_see_the_sky(int is_beckmann, double alpha)
+{
+    enum { ROWS = 400 };
+    const wide_lobe l = { !is_beckmann, (wide)alpha, (wide)alpha };
+    wide lit = 0.0L, all = 0.0L;
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < ROWS; k++) {
+            const double theta = 0.5 * PI * (i + 0.5) / ROWS, phi = 2.0 * PI * (k + 0.5) / ROWS, s = sin(theta);
+            const wide h[3] = { (wide)(s * cos(phi)), (wide)(s * sin(phi)), (wide)cos(theta) };
+            const wide dot = (wide)VIEW[0] * h[0] + (wide)VIEW[2] * h[2], area = wide_density(&l, h) * (wide)s;
+            all += area;
+            lit += dot > 0.0L && 2.0L * dot * h[2] > (wide)VIEW[2] ? area : 0.0L;
+        }
+    return (double)(lit / all);
+}
+
+/* The limit of what p may be, where D at the middle of the light says forty times as much. */
+static void the_whole_sky_lights_the_facets_that_mirror_it(void **state)
+{
+    (void)state;
+    static const float alphas[] = { 0.1F, 0.3F, 0.6F };
+    const glint_area_light sky = { .kind = GLINT_AREA_SUN,
+                                   .solid_angle_sr = 6.28318531F,
+                                   .center = { 0.0F, 0.0F, 1.0F } };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 4; k++) {
+            glint_material *m = lobe_material(k & 1, k >> 1, alphas[i]);
+            const double p = (double)value_of(m, &sky).lit_probability;
+            const double expected = facets_that_see_the_sky(k & 1, (double)alphas[i]);
+            /* What the integrals promise, and half a row of the quadrature where it is cut. */
+            const double bound = (k >> 1 ? 0.01 : 0.04) + 0.5 / 400;
+            if (!(fabs(p / expected - 1.0) < bound))
+                fail_msg("distribution %d, %s, alpha %g: p %.5f, expected %.5f", k & 1, k >> 1 ? "exact" : "fast",
+                         (double)alphas[i], p, expected);
+            glint_material_destroy(m);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +318,7 @@ int main(void)
                                         without_traps),
         cmocka_unit_test_setup_teardown(a_rim_may_pass_the_mirrored_view_closely, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(lights_all_around_are_alike, with_traps, without_traps),
+        cmocka_unit_test_setup_teardown(the_whole_sky_lights_the_facets_that_mirror_it, with_traps, without_traps),
     };
     return cmocka_run_group_tests(tests, make_materials, free_materials);
 }

@@ -41,6 +41,27 @@ static void listed_hard_cases_are_sane(void **state)
                     }
 }
 
+/* wi = -wo has no half vector; one of the two is below the horizon, or both lie in it. */
+static void a_light_straight_behind_is_dark(void **state)
+{
+    (void)state;
+    static const double thetas[] = { 0.0, 1e-7, 0.7, 1.5, GRAZING, 1.5707963, 1.5707964, 3.0 };
+    const glint_footprint f = { .dudx = 1e-3F, .dvdy = 1e-3F };
+    const glint_light light = { GLINT_LIGHT_CAP, 1e-3F };
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int i = 0; i < 9; i++) {
+        float wo[3] = { 1.0F, 0.0F, 0.0F };
+        if (i < 8)
+            direction(thetas[i], 0.4 * i, wo);
+        const float wi[3] = { -wo[0], -wo[1], -wo[2] };
+        glint_value v;
+        glint_eval_value(m, NULL, &f, wo, wi, &light, &v);
+        assert_sane(&v);
+        for (int k = 0; k < 3; k++)
+            assert_true(v.rgb[k] == 0.0F && v.smooth[k] == 0.0F);
+    }
+}
+
 static void roughen(glint_surface *s, uint64_t *random)
 {
     s->alpha_x = hostile(random, s->alpha_x);
@@ -224,6 +245,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(listed_hard_cases_are_sane, with_traps, without_traps),
+        cmocka_unit_test_setup_teardown(a_light_straight_behind_is_dark, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(random_bits_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(random_batches_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(degenerate_footprints_give_the_smooth_limit, with_traps, without_traps),

@@ -73,7 +73,7 @@ async function fitsTheWindow(browser, width, colorScheme) {
   assert.deepStrictEqual(complaints, []);
   assert.deepStrictEqual(requests.filter((url) => !url.startsWith("file:") && !url.startsWith("data:")), []);
   // Numbers are for people: no exponent of a machine.
-  const cells = await page.locator("td").allTextContents();
+  const cells = await page.locator("td, li").allTextContents();
   assert.ok(cells.length > 20, `${cells.length} cells`);
   assert.deepStrictEqual(cells.filter((text) => /\de[-+]\d/.test(text)), []);
   await page.close();
@@ -102,8 +102,8 @@ async function printsWell(browser) {
 }
 
 async function main() {
-  // Four figures and no table of settings; one figure and two tables.
-  execFileSync(glint, ["study", "--lights", "--memory", "--quick", "-o", folder], { stdio: ["ignore", "ignore", "inherit"] });
+  // Four figures and no table of settings; one figure and two tables, and sentences with small numbers.
+  execFileSync(glint, ["study", "--lights", "--integrals", "--quick", "-o", folder], { stdio: ["ignore", "ignore", "inherit"] });
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"], timeout: PATIENCE_MS
   });

@@ -46,6 +46,8 @@ FILE *study_open(const study *s, const char *name)
     FILE *file = fopen(path, "w");
     if (!file)
         give_up(path);
+    /* Line by line: whoever waits for half an hour sees how far it is. */
+    setvbuf(file, NULL, _IOLBF, BUFSIZ);
     return file;
 }
 

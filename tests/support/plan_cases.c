@@ -29,6 +29,7 @@ static const plan_setting settings[] = {
     { "brushed", 0.6F, 1e9F, 0.1F, .stretched = true, .light = SCENE_LIGHT_POINT },
     { "window", 0.6F, 1e8F, 0.1F, .light = SCENE_LIGHT_RECT },
     { "shadow", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT },
+    { "penumbra", 0.6F, 1e8F, 0.1F, .blocked = true, .light = SCENE_LIGHT_RECT },
     { "bounce", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT, .bounces = 1 },
     { "dictionary", 0.6F, 1e9F, 0.1F, .light = SCENE_LIGHT_POINT, .model = GLINT_MODEL_DICTIONARY },
     { "uneven", 0.6F, 1e10F, 0.1F, .light = SCENE_LIGHT_POINT, .density_variation = 0.5F },

@@ -228,6 +228,7 @@ FUNCTIONS = {
     "glint_preview_scene_destroy": (None, [ctypes.c_void_p]),
     "glint_preview_plan": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.c_char_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_create": (ctypes.c_int, [ctypes.c_void_p, ctypes.POINTER(PictureOptions), ctypes.POINTER(ctypes.c_void_p), ctypes.c_char_p, ctypes.c_size_t]),
+    "glint_preview_picture_samples": (ctypes.c_int32, [ctypes.c_void_p]),
     "glint_preview_picture_refine": (ctypes.c_int, [ctypes.c_void_p, ctypes.c_int32, ctypes.c_char_p, ctypes.c_size_t]),
     "glint_preview_picture_cancel": (None, [ctypes.c_void_p, ctypes.c_int32]),
     "glint_preview_picture_progress": (ctypes.c_double, [ctypes.c_void_p]),

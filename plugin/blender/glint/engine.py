@@ -116,10 +116,10 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             for name, channels, letters, _, _ in passes:
                 self.add_pass(name, channels, letters, layer=layer.name)
             scale = source.unit_settings.scale_length
-            for target in self._targets(samples):
-                if not self._refine(picture, target, samples):
+            for target in self._targets(picture.samples):
+                if not self._refine(picture, target):
                     break
-                self._show(picture, layer.name, passes if target == samples else [], scale)
+                self._show(picture, layer.name, passes if target == picture.samples else [], scale)
         finally:
             picture.close()
 
@@ -129,7 +129,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             return [samples]
         return [1] + [4**k for k in range(1, 8) if 4**k < samples] + [samples]
 
-    def _refine(self, picture, target, samples):
+    def _refine(self, picture, target):
         """C works in a thread, so that this one can hear of a wish to stop. False: stopped."""
         outcome = []
 
@@ -145,7 +145,7 @@ class GlintRenderEngine(bpy.types.RenderEngine):
             worker.join(LOOK_EVERY_S)
             if self.shall_stop():
                 picture.cancel()
-            self.update_progress(picture.progress * target / samples)
+            self.update_progress(picture.progress * target / picture.samples)
         if isinstance(outcome[0], GlintError):
             raise outcome[0]
         return outcome[0]

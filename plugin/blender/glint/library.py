@@ -156,6 +156,11 @@ class Picture:
         self._library.glint_preview_picture_cancel(self.handle, 1)
 
     @property
+    def samples(self):
+        """Of a pixel in the end."""
+        return self._library.glint_preview_picture_samples(self.handle)
+
+    @property
     def progress(self):
         return self._library.glint_preview_picture_progress(self.handle)
 

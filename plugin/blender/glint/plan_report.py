@@ -22,11 +22,12 @@ class Outcome:
     noise: float
     is_met: bool
     enough_samples: int
+    samples: int
 
 
 def outcome_of(fields):
-    ns, error, noise, met, enough = fields
-    return Outcome(float(ns), float(error), float(noise), met == "met", int(enough))
+    ns, error, noise, met, enough, samples = fields
+    return Outcome(float(ns), float(error), float(noise), met == "met", int(enough), int(samples))
 
 
 def percent(share):
@@ -38,10 +39,10 @@ def percent(share):
     return f"{100.0 * share:.1f} %" if share < 0.0995 else f"{100.0 * share:.0f} %"
 
 
-def conclusion(outcome, accuracy, samples):
-    """What the whole comes to, as lines of text. samples: of all pixels."""
-    lines = [f"About {1e-9 * outcome.ns_per_sample * samples:.2g} s of one core; left out {outcome.error:.2g}, "
-             f"noise {outcome.noise:.2g}"]
+def conclusion(outcome, accuracy, pixels):
+    """What the whole comes to, as lines of text."""
+    seconds = 1e-9 * outcome.ns_per_sample * outcome.samples * pixels
+    lines = [f"{outcome.samples} samples, about {seconds:.2g} s of one core; left out {outcome.error:.2g}, noise {outcome.noise:.2g}"]
     if not accuracy > 0.0:
         lines.append("Nothing is left out")
     elif outcome.is_met:
@@ -97,8 +98,7 @@ def keep(plan, rows, scene):
         line.is_on = on == "on"
         line.time_share, line.error, line.reason = float(fields[4]), float(fields[5]), fields[6]
     width, height = scene_camera.resolution(scene)
-    samples = width * height * scene.glint.samples
-    plan.conclusion = "\n".join(conclusion(outcome_of(rows[0]), scene.glint.accuracy, samples))
+    plan.conclusion = "\n".join(conclusion(outcome_of(rows[0]), scene.glint.accuracy, width * height))
 
 
 class GLINT_OT_plan(bpy.types.Operator):

@@ -27,8 +27,8 @@ MODELS = {"AUTO": -1, "SMOOTH": 0, "COUNTING": 1, "EXPLICIT": 2, "DICTIONARY": 3
 
 class GlintRenderSettings(bpy.types.PropertyGroup):
     samples: IntProperty(
-        name="Samples", description="Samples a pixel of a final render; powers of 4 are spread best", min=1, max=65536,
-        default=64,
+        name="Samples", min=0, max=65536, default=64,
+        description="Samples a pixel of a final render; powers of 4 are spread best. 0: as many as the accuracy takes",
     )
     preview_samples: IntProperty(
         name="Viewport Samples", description="Samples a pixel of the viewport, which come one after the other", min=1,

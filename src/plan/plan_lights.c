@@ -1,0 +1,155 @@
+/* How the light of each shape is found on each material: by a fit where what that is off by fits the budget, by an
+ * exact integral else.
+ *
+ * A fit that is off by an error e is off by e of the light. It also turns facets on and off: of the N p that are lit e
+ * N p on average, each of which is 1 / (N p) of the light, so that it varies by e / (N p) more. Of few lit facets that
+ * is far more than e^2.
+ */
+#include "plan/plan.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char *name_of(const glint_plan_light *l)
+{
+    return l->name ? l->name : "a light";
+}
+
+/* ---- the fit ---- */
+
+static int is_shape(const glint_plan *p, const glint_plan_pair *pair)
+{
+    return p->summary.lights[pair->light].kind == GLINT_PLAN_LIGHT_SHAPE;
+}
+
+/* The fit knows round roughness; what is brushed is integrated whatever the plan says. */
+static int is_stretched(const glint_plan_material *m)
+{
+    return m->base->surface.alpha_x != m->base->surface.alpha_y ||
+           (m->coat && m->coat->surface.alpha_x != m->coat->surface.alpha_y);
+}
+
+/* The larger of both layers'. */
+static double worse(const float errors[2], const glint_plan_material *m)
+{
+    const double base = (double)errors[m->base->distribution == GLINT_DISTRIBUTION_BECKMANN];
+    return m->coat ? fmax(base, (double)errors[m->coat->distribution == GLINT_DISTRIBUTION_BECKMANN]) : base;
+}
+
+static double variance_of_fit(const glint_plan *p, const glint_plan_pair *pair)
+{
+    const glint_plan_material *const m = &p->summary.materials[pair->material];
+    const double error = worse(plan_ltc_errors, m);
+    return error * error * (double)pair->part + worse(plan_ltc_flips, m) * (double)pair->sparks;
+}
+
+/* What the fit would add to the picture, material by material, and for how many evaluations. */
+static void add_up_fits(glint_plan *p)
+{
+    for (uint32_t i = 0; i < p->summary.pair_count; i++) {
+        const glint_plan_pair *const pair = &p->summary.pairs[i];
+        if (!is_shape(p, pair))
+            continue;
+        p->materials[pair->material].fit_variance += variance_of_fit(p, pair);
+        p->materials[pair->material].fit_evaluations += (double)pair->seen;
+    }
+}
+
+/* The material that the fit suits best: which adds the least for the time that it saves. NULL: none that fits. */
+static plan_material *best_for_fit(glint_plan *p, double most_variance)
+{
+    plan_material *best = NULL;
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < p->summary.material_count; i++) {
+        plan_material *const m = &p->materials[i];
+        const double price = m->fit_variance / fmax(m->fit_evaluations, 1e-30);
+        if (m->method == GLINT_AREA_LIGHT_FAST || !(m->fit_variance < most_variance) || !(price < least) ||
+            is_stretched(&p->summary.materials[i]))
+            continue;
+        least = price;
+        best = m;
+    }
+    return best;
+}
+
+/* One after the other, while all of them fit three quarters of what may be left out. Taste: in most pictures nothing
+ * else saves as much. */
+static void choose_methods(glint_plan *p)
+{
+    double left = 0.75 * plan_left(p, 1) * plan_left(p, 1);
+    for (uint32_t i = 0; i < p->summary.material_count; i++)
+        p->materials[i].method = GLINT_AREA_LIGHT_EXACT;
+    add_up_fits(p);
+    for (plan_material *m; (m = best_for_fit(p, left)) != NULL;) {
+        m->method = GLINT_AREA_LIGHT_FAST;
+        left -= m->fit_variance;
+    }
+}
+
+/* ---- what is said ---- */
+
+static void decide_shape(glint_plan *p, const glint_plan_pair *pair)
+{
+    const glint_plan_material *const m = &p->summary.materials[pair->material];
+    const char *const name = name_of(&p->summary.lights[pair->light]);
+    const double error = sqrt(variance_of_fit(p, pair));
+    glint_decision d = {
+        GLINT_EFFECT_LIGHT, (int32_t)pair->material, (int32_t)pair->light, 1, "quadrature", "", 0.0F, 0.0F, 0.0F
+    };
+    d.ns_per_sample = pair->seen * plan_costs[PLAN_COST_QUADRATURE];
+    if (is_stretched(m)) {
+        plan_decide(p, d, "%s shows its shape on a brushed surface, which no fit knows", name);
+    } else if (p->materials[pair->material].method == GLINT_AREA_LIGHT_FAST) {
+        snprintf(d.choice, sizeof(d.choice), "LTC");
+        d.ns_per_sample = pair->seen * plan_costs[PLAN_COST_LTC];
+        d.error = (float)error;
+        plan_decide(p, d, "the shape of %s by a fit: %.2g of a pixel, and of the facets that it turns on or off", name,
+                    error);
+    } else {
+        plan_decide(p, d, "a fit of the shape of %s, and the facets that it turns on or off, would be off by %.2g",
+                    name, error);
+    }
+}
+
+/* Where it shows its shape decisions are about each material. */
+static void decide_light(glint_plan *p, uint32_t index)
+{
+    const glint_plan_light *const l = &p->summary.lights[index];
+    glint_decision d = { GLINT_EFFECT_LIGHT, -1, (int32_t)index, 1, "cap", "", 0.0F, 0.0F, 0.0F };
+    if (l->kind == GLINT_PLAN_LIGHT_SHAPE)
+        return;
+    d.ns_per_sample = p->light_seen[index] * plan_costs[PLAN_COST_SMOOTH];
+    if (l->kind == GLINT_PLAN_LIGHT_CAP) {
+        plan_decide(p, d, "%s is small and round: one direction stands for it", name_of(l));
+        return;
+    }
+    snprintf(d.choice, sizeof(d.choice), "sampled");
+    if (l->patch_count > 0)
+        plan_decide(p, d, "%s is cut into %u patches of even light", name_of(l), l->patch_count);
+    else
+        plan_decide(p, d, "%s is sampled by its light", name_of(l));
+}
+
+/* No survey proves that there are none: a pixel whose shadow is missed is brighter than it should be by any factor. */
+static void decide_shadows(glint_plan *p, uint32_t index)
+{
+    const glint_plan_light *const l = &p->summary.lights[index];
+    const float rays = (float)l->shadow_rays / fmaxf((float)p->summary.pixel_count, 1.0F);
+    const glint_decision d = {
+        GLINT_EFFECT_SHADOWS, -1, (int32_t)index, 1, "traced", "", rays * plan_costs[PLAN_COST_SHADOW_RAY], 0.0F, 0.0F
+    };
+    plan_decide(p, d, "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays, name_of(l));
+}
+
+void plan_lights(glint_plan *p)
+{
+    choose_methods(p);
+    for (uint32_t i = 0; i < p->summary.light_count; i++)
+        decide_light(p, i);
+    for (uint32_t i = 0; i < p->summary.pair_count; i++)
+        if (is_shape(p, &p->summary.pairs[i]))
+            decide_shape(p, &p->summary.pairs[i]);
+    for (uint32_t i = 0; i < p->summary.light_count; i++)
+        if (p->summary.lights[i].shadow_rays > 0)
+            decide_shadows(p, i);
+}
