@@ -70,10 +70,18 @@ int query_light(model_query *q, const float wi[3], float solid_angle_sr)
     return is_unit(q->wi) && (q->material->base || q->wi.z > 0.0F);
 }
 
+/* All eight numbers at once, in the manner of clamp_surface. */
 void value_make_finite(glint_value *value)
 {
-    for (int i = 0; i < 3; i++) {
-        value->rgb[i] = value_finite(value->rgb[i]);
-        value->smooth[i] = value_finite(value->smooth[i]);
+    enum { COUNT = offsetof(glint_value, over_limit) / sizeof(int32_t) };
+    const int32_t most = (int32_t)bits_of_float(3e38F);
+    int32_t bits[COUNT];
+    memcpy(bits, value, sizeof(bits));
+    for (size_t i = 0; i < COUNT; i++) {
+        int32_t x = bits[i];
+        x = x > 0x7f800000 ? 0 : x;
+        x = x > 0 ? x : 0;
+        bits[i] = x < most ? x : most;
     }
+    memcpy(value, bits, sizeof(bits));
 }

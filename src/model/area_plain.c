@@ -94,12 +94,15 @@ static void shade(const model_query *q, const plain_query *plain, const plain_su
     }
 }
 
-/* ---- polygons: triangles that share a corner ---- */
+/* ---- polygons: triangles that share a corner, or the middle ---- */
 
 typedef struct fan {
     int count;
     vfloat3 corner[GLINT_MAX_CORNERS]; /* over the distance of the middle */
+    vfloat3 edge[GLINT_MAX_CORNERS];   /* from the first corner */
+    float facing[GLINT_MAX_CORNERS];   /* six volumes between the point and the triangle of edges i - 1 and i */
     vfloat3 middle;                    /* the mean of all corners, unit */
+    float reach, height;               /* how far corners are from the middle, in all and up or down */
 } fan;
 
 static vfloat3 minus(vfloat3 a, vfloat3 b)
@@ -107,76 +110,91 @@ static vfloat3 minus(vfloat3 a, vfloat3 b)
     return (vfloat3){ a.x - b.x, a.y - b.y, a.z - b.z };
 }
 
-/* 0: its corners are no numbers to speak of. */
-static int find_fan(const glint_area_light *l, fan *f)
+/* The mean of the corners, 0 where they are no numbers to speak of or far wider than they are away. */
+static int find_middle(const glint_area_light *l, vfloat3 *mean, float *distance2)
 {
-    f->count = (int)l->corner_count;
+    uint32_t most = 0;
+    vfloat3 sum = { 0.0F, 0.0F, 0.0F };
     if (l->corner_count < 3U || l->corner_count > GLINT_MAX_CORNERS)
         return 0;
-    vfloat3 sum = { 0.0F, 0.0F, 0.0F };
-    for (int i = 0; i < f->count; i++) {
-        f->corner[i] = from(l->corners[i]);
-        if (!plain_is_usable(f->corner[i]))
-            return 0;
-        sum = add_3(sum, f->corner[i]);
-    }
-    const vfloat3 mean = scale_3(sum, 1.0F / (float)f->count);
-    const float distance2 = dot_3(mean, mean);
-    if (!(distance2 > 1e-30F))
+    for (uint32_t i = 0; i < l->corner_count; i++)
+        for (int k = 0; k < 3; k++) {
+            const uint32_t bits = bits_of_float(l->corners[i][k]) & 0x7fffffffU;
+            most = bits > most ? bits : most;
+        }
+    if (most >= bits_of_float(1e15F))
         return 0;
-    for (int i = 0; i < f->count; i++) {
-        const vfloat3 off = minus(f->corner[i], mean);
-        if (!(dot_3(off, off) < distance2))
-            return 0;
-    }
+    for (uint32_t i = 0; i < l->corner_count; i++)
+        sum = add_3(sum, from(l->corners[i]));
+    *mean = scale_3(sum, 1.0F / (float)l->corner_count);
+    *distance2 = dot_3(*mean, *mean);
+    float widest;
+    memcpy(&widest, &most, sizeof(widest));
+    return *distance2 > 1e-30F && widest * widest < 9.0F * *distance2;
+}
+
+static int find_fan(const glint_area_light *l, fan *f)
+{
+    vfloat3 mean;
+    float distance2, reach2 = 0.0F;
+    if (!find_middle(l, &mean, &distance2))
+        return 0;
     const float inverse = 1.0F / sqrtf(distance2);
+    f->count = (int)l->corner_count;
     f->middle = scale_3(mean, inverse);
-    for (int i = 0; i < f->count; i++)
-        f->corner[i] = scale_3(f->corner[i], inverse);
-    return 1;
+    f->height = 0.0F;
+    for (int i = 0; i < f->count; i++) {
+        f->corner[i] = scale_3(from(l->corners[i]), inverse);
+        const vfloat3 off = minus(f->corner[i], f->middle);
+        reach2 = max_f(reach2, dot_3(off, off));
+        f->height = max_f(f->height, fabsf(off.z));
+        f->edge[i] = minus(f->corner[i], f->corner[0]);
+        f->facing[i] = i > 1 ? dot_3(cross_3(f->edge[i - 1], f->edge[i]), f->corner[0]) : 0.0F;
+    }
+    f->reach = sqrtf(reach2);
+    return f->reach > 1e-8F;
 }
 
 /* As plain_light_of. Triangles between all corners and the middle are half as wide as those between one corner and the
  * others; which they are is said in *from_middle. */
 static int rule_of_fan(const area_lobe *l, const fan *f, int two_sided, int *from_middle, float *left)
 {
-    float reach2 = 0.0F, height = 0.0F;
-    vfloat3 normal = { 0.0F, 0.0F, 0.0F }; /* as long as twice the area */
-    for (int i = 0; i < f->count; i++) {
-        const vfloat3 off = minus(f->corner[i], f->middle);
-        reach2 = fmaxf(reach2, dot_3(off, off));
-        height = fmaxf(height, fabsf(off.z));
-        if (i > 1)
-            normal = add_3(normal, cross_3(minus(f->corner[i - 1], f->corner[0]), minus(f->corner[i], f->corner[0])));
-    }
-    const float facing = dot_3(normal, f->middle), reach = sqrtf(reach2);
-    if (!(reach2 > 1e-16F) || !(facing * facing > 4e-4F * reach2 * reach2))
+    float facing = 0.0F;
+    for (int i = 2; i < f->count; i++)
+        facing += f->facing[i];
+    const float area = f->reach * f->reach;
+    if (!(facing * facing > 4e-4F * area * area))
         return PLAIN_LEFT;
-    if ((!two_sided && facing > 0.0F) || f->middle.z + height < -1e-4F)
+    if ((!two_sided && facing > 0.0F) || f->middle.z + f->height < -1e-4F)
         return PLAIN_DARK;
-    if (!(f->middle.z > height))
+    if (!(f->middle.z > f->height))
         return PLAIN_LEFT;
-    float bend = plain_bend(l, f->middle, reach, reach, height);
+    /* The longest sides are twice as long as it reaches, but no triangle is as wide as a square. */
+    float bend = plain_bend(l, f->middle, 0.75F * f->reach, f->reach, f->height);
     *from_middle = !(bend < PLAIN_COARSE);
     if (*from_middle)
-        bend = plain_bend(l, f->middle, 0.5F * reach, reach, height);
+        bend = plain_bend(l, f->middle, 0.5F * f->reach, f->reach, f->height);
     /* More points than that cost more than the other method. */
     *left = *from_middle ? plain_share_left(bend, PLAIN_FADES / PLAIN_FINE * PLAIN_MIDDLE, PLAIN_MIDDLE) : 0.0F;
     return bend < PLAIN_MIDDLE ? CUBATURE_TRIANGLE * CUBATURE_LEVELS + plain_level(bend) : PLAIN_LEFT;
 }
 
-static area_patch triangle_of(vfloat3 a, vfloat3 b, vfloat3 c)
+static void take_triangles(const fan *f, area_nodes *n)
 {
-    plain_light p = { .middle = a, .u = minus(b, a), .v = minus(c, a) };
-    p.size = 0.5F * fabsf(dot_3(cross_3(p.u, p.v), p.middle));
-    return patch_of(&p);
+    for (int i = 2; i < f->count; i++)
+        n->patch[n->count++] = (area_patch){ vec3_of(f->corner[0]), vec3_of(f->edge[i - 1]), vec3_of(f->edge[i]),
+                                             0.5F * fabsf(f->facing[i]) };
 }
 
-static void take_triangles(const fan *f, int from_middle, area_nodes *n)
+static void take_triangles_from_middle(const fan *f, area_nodes *n)
 {
-    for (int i = from_middle ? 0 : 2; i < f->count; i++)
+    vfloat3 u = minus(f->corner[f->count - 1], f->middle);
+    for (int i = 0; i < f->count; i++) {
+        const vfloat3 v = minus(f->corner[i], f->middle);
         n->patch[n->count++] =
-            triangle_of(from_middle ? f->middle : f->corner[0], f->corner[i > 0 ? i - 1 : f->count - 1], f->corner[i]);
+            (area_patch){ vec3_of(f->middle), vec3_of(u), vec3_of(v), 0.5F * fabsf(dot_3(cross_3(u, v), f->middle)) };
+        u = v;
+    }
 }
 
 /* ---- contract ---- */
@@ -198,7 +216,7 @@ float area_eval_plain(const model_query *q, area_value *value)
         const int two_sided = q->area_light->two_sided != 0U;
         rule = find_fan(q->area_light, &f) ? rule_of_fan(&l, &f, two_sided, &from_middle, &left) : PLAIN_LEFT;
         if (rule >= 0)
-            take_triangles(&f, from_middle, &nodes);
+            (from_middle ? take_triangles_from_middle : take_triangles)(&f, &nodes);
     } else {
         const plain_light p = plain_light_of(&l, &plain);
         rule = p.rule;

@@ -38,7 +38,7 @@ typedef struct plain_light {
  * method from PLAIN_FADES on. Of a pole the rules leave 2e-5, 2e-4 and 3e-4 there. */
 #define PLAIN_COARSE 0.35F
 #define PLAIN_MIDDLE 0.75F
-#define PLAIN_FADES 1.5F
+#define PLAIN_FADES 1.65F
 #define PLAIN_FINE 1.9F
 
 /* ---- where the light is ---- */
@@ -51,9 +51,10 @@ static inline vmask plain_is_usable(vfloat3 v)
            less_i((vint)(bits_of(v.z) & 0x7fffffffU), most);
 }
 
-/* Half axes of round lights around the unit vector w: tangents of their angular radius. */
-static inline void plain_round(const plain_query *q, vmask is_sphere, vmask is_round, vfloat distance_inverse,
-                               vfloat3 w, vfloat3 *u, vfloat3 *v)
+/* Adds the half axes of round lights around the unit vector w: as long as the tangent of their angular radius. Others
+ * add nothing. */
+static inline void plain_add_round(const plain_query *q, vmask is_sphere, vmask is_round, vfloat distance_inverse,
+                                   vfloat3 w, vfloat3 *u, vfloat3 *v)
 {
     const vfloat zero = splat(0.0F), one = splat(1.0F);
     const vfloat size = max_f(choose(is_round, q->size, zero), zero);
@@ -66,8 +67,8 @@ static inline void plain_round(const plain_query *q, vmask is_sphere, vmask is_r
     const vmask level = less(abs_f(w.x), splat(0.7F));
     const vfloat3 across =
         normalize_3(choose_3(level, (vfloat3){ zero, zero - w.z, w.y }, (vfloat3){ w.z, zero, zero - w.x }));
-    *u = choose_3(is_round, scale_3(across, tangent), *u);
-    *v = choose_3(is_round, scale_3(cross_3(w, across), tangent), *v);
+    *u = add_3(*u, scale_3(across, tangent));
+    *v = add_3(*v, scale_3(cross_3(w, across), tangent));
 }
 
 /* ---- how much the lobe bends over it ---- */
@@ -133,12 +134,12 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
     /* Farther than it is wide, and so that no square is too large or too small a number. */
     vmask plain =
         usable & less(splat(1e-30F), distance2) & less(dot_3(half_x, half_x) + dot_3(half_y, half_y), distance2);
-    const vfloat inverse = 1.0F / choose(plain, sqrt_f(distance2), one);
-    plain_light p = { .middle = choose_3(plain, scale_3(center, inverse), up),
-                      .u = choose_3(plain, scale_3(half_x, inverse), none),
-                      .v = choose_3(plain, scale_3(half_y, inverse), none) };
+    const vfloat inverse = choose(plain, 1.0F / choose(plain, sqrt_f(distance2), one), zero);
+    plain_light p = { .middle = scale_3(center, inverse),
+                      .u = scale_3(half_x, inverse),
+                      .v = scale_3(half_y, inverse) };
     if (any(is_round))
-        plain_round(q, is_sphere, is_round & plain, inverse, p.middle, &p.u, &p.v);
+        plain_add_round(q, is_sphere, is_round & plain, inverse, p.middle, &p.u, &p.v);
 
     const vfloat u2 = dot_3(p.u, p.u), v2 = dot_3(p.v, p.v), facing = dot_3(cross_3(p.u, p.v), p.middle);
     /* Seen at an angle, and not so small that its area has no digits. */

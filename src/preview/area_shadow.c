@@ -2,18 +2,15 @@
  *
  * Analytic light times the share of it that is visible (Heitz, Hill and McGuire 2018, "Combining Analytic Direct
  * Illumination and Stochastic Shadows"). The share is a quotient of two integrals over the light, of f cos V and of f
- * cos. Places spread over the light, and one that the surface reflects, stand for both. The quotient is exact where all
- * rays agree; in a half-shadow it tends to the truth as the places grow in number.
+ * cos. Places spread over the light, and some that the surface reflects, stand for both. The quotient is exact where
+ * all rays agree, and nothing has to be weighed where all pass; in a half-shadow it tends to the truth as the places
+ * grow in number.
  */
 #include "preview/area_shadow.h"
 
 #include "preview/hash.h"
 
-/* Even over the light, on a grid of 2 x 2; and by a surface that is not rough, whose lobe may fall between them. */
-#define SPREAD 4
-#define REFLECTED 3
-#define MOST_CANDIDATES (SPREAD + REFLECTED)
-/* Places that add less than this share of all are not worth a ray. */
+/* Places that add less than this share of all do not count. */
 #define LEAST_SHARE 0.01
 /* Half the room of a depth's dimensions: those of lights have a partner there for their choice. */
 #define PARTNER (1U << 19)
@@ -23,45 +20,33 @@
 /* Lobes so rough do not fall between four candidates: taste. */
 #define ROUGH 0.3F
 
-typedef struct candidate {
-    vec3 direction; /* unit */
-    double distance;
-    double weight;
-} candidate;
-
-/* A light and how the point sees it. */
-typedef struct target {
-    const light *light;
-    const light_view *view;
-} target;
-
 /* 1 / (density of the spread candidates, per steradian): cos |da| / d^2, 0 from behind, for a flat light; round ones
  * are even over their cap. */
-static double steradians(const target *t, vec3 direction, double distance)
+static double steradians(const area_shadow *s, vec3 direction, double distance)
 {
-    const light *const l = t->light;
+    const light *const l = s->light;
     if (!light_is_area(l))
-        return (double)t->view->solid_angle_sr;
+        return (double)s->view.solid_angle_sr;
     const double cosine = v3_dot(direction, l->axis);
     return cosine > 0.0 ? light_area_m2(l) * cosine / (distance * distance) : 0.0;
 }
 
 static bool has_sharp_layer(const shade_point *p)
 {
-    for (int i = 0; i < p->layer_count; ++i)
+    for (int i = 0; i < shade_layers(p); ++i)
         if (fminf(p->layers[i].surface.alpha_x, p->layers[i].surface.alpha_y) < ROUGH)
             return true;
     return false;
 }
 
 /* The place of the light that lies in a direction. */
-static bool meet(const target *t, vec3 origin, vec3 direction, double *distance)
+static bool meet(const area_shadow *s, vec3 origin, vec3 direction, double *distance)
 {
-    const light *const l = t->light;
+    const light *const l = s->light;
     if (!light_is_area(l)) {
-        *distance = t->view->distance;
-        const double cosine = v3_dot(direction, t->view->wi);
-        return cosine > 0.0 && v3_length(v3_mad(direction, t->view->wi, -cosine)) <= t->view->sine;
+        *distance = s->view.distance;
+        const double cosine = v3_dot(direction, s->view.wi);
+        return cosine > 0.0 && v3_length(v3_mad(direction, s->view.wi, -cosine)) <= s->view.sine;
     }
     const vec3 towards = v3_sub(l->position, origin);
     const double cosine = v3_dot(direction, l->axis);
@@ -74,96 +59,102 @@ static bool meet(const target *t, vec3 origin, vec3 direction, double *distance)
     return l->kind == SCENE_LIGHT_DISK ? x * x + y * y <= 1.0 : fabs(x) <= 1.0 && fabs(y) <= 1.0;
 }
 
-/* The balance heuristic over all candidates of both kinds. */
-static void weigh(const shade_point *p, const target *t, bool sharp, candidate *c)
+/* What the place that a ray leads to adds, by the balance heuristic over all rays of both kinds. */
+static double weight_of(const area_shadow *s, const shade_point *p, const trace_ray *ray)
 {
-    const double solid_angle = steradians(t, c->direction, c->distance);
-    c->weight = 0.0;
+    const double solid_angle = steradians(s, ray->direction, ray->far);
     if (!(solid_angle > 0.0))
-        return;
-    const double density = SPREAD / solid_angle + (sharp ? REFLECTED * (double)shade_pdf(p, c->direction) : 0.0);
-    c->weight = (double)shade_level(p, c->direction) / density;
+        return 0.0;
+    const double density =
+        AREA_SPREAD / solid_angle + (s->is_sharp ? AREA_REFLECTED * (double)shade_pdf(p, ray->direction) : 0.0);
+    return (double)shade_level(p, ray->direction) / density;
 }
 
-static int spread(const shade_point *p, const target *t, vec3 origin, const double u[2], bool sharp, candidate *out)
+static double weigh(const area_shadow *s, const shade_point *p, const trace_ray *rays, int count, double *weights)
 {
-    for (int i = 0; i < SPREAD; ++i) {
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        weights[i] = weight_of(s, p, &rays[i]);
+        sum += weights[i];
+    }
+    return sum;
+}
+
+static void spread(const area_shadow *s, const double u[2], trace_ray *rays)
+{
+    for (int i = 0; i < AREA_SPREAD; ++i) {
         const int column = i % 2, row = i / 2;
         const double place[2] = { 0.5 * (column + u[0]), 0.5 * (row + u[1]) };
-        if (light_is_area(t->light)) {
-            const vec3 towards = v3_sub(light_point(t->light, place), origin);
-            out[i].distance = v3_length(towards);
-            out[i].direction = v3_normalize(towards);
+        trace_ray *const ray = &rays[i];
+        if (light_is_area(s->light)) {
+            const vec3 towards = v3_sub(light_point(s->light, place), ray->origin);
+            ray->far = v3_length(towards);
+            ray->direction = v3_normalize(towards);
         } else {
-            light_pick(t->light, t->view, origin, place, &out[i].direction, &out[i].distance);
+            light_pick(s->light, &s->view, ray->origin, place, &ray->direction, &ray->far);
         }
-        weigh(p, t, sharp, &out[i]);
     }
-    return SPREAD;
 }
 
-static int reflect(const shade_point *p, const target *t, vec3 origin, uint32_t bits, candidate *out)
+/* Returns how many of the surface's own directions meet the light. */
+static int reflect(const area_shadow *s, const shade_point *p, uint32_t bits, trace_ray *rays)
 {
     int count = 0;
-    for (uint32_t i = 0; i < REFLECTED; ++i) {
+    for (uint32_t i = 0; i < AREA_REFLECTED; ++i) {
         const uint32_t own = hash_combine(bits, i);
         const float random[3] = { hash_uniform(hash_combine(own, 1U)), hash_uniform(hash_combine(own, 2U)),
                                   hash_uniform(hash_combine(own, 3U)) };
         shade_direction reflected;
-        candidate *const c = &out[count];
-        if (!shade_sample(p, hash_uniform(own), random, &reflected) || !meet(t, origin, reflected.wi, &c->distance))
+        trace_ray *const ray = &rays[count];
+        if (!shade_sample(p, hash_uniform(own), random, &reflected) || !meet(s, ray->origin, reflected.wi, &ray->far))
             continue;
-        c->direction = reflected.wi;
-        weigh(p, t, true, c);
+        ray->direction = reflected.wi;
         ++count;
     }
     return count;
 }
 
-static bool passes(const world *w, const candidate *c, vec3 origin, uint32_t bits, ray_counts *counts)
+/* One of the rays, drawn by its weight, stands for all: the same share in the mean (resampled importance sampling,
+ * Talbot et al. 2005). */
+static int draw_one(const area_shadow *s, const shade_point *p, double draw, trace_ray *rays, int count)
 {
-    const trace_ray ray = { .origin = origin, .direction = c->direction, .far = c->distance, .random = bits };
-    ++counts->shadow_rays;
-    return !trace_occluded(w->trace, &ray);
+    double weights[AREA_MOST_RAYS];
+    double left = draw * weigh(s, p, rays, count, weights);
+    for (int i = 0; i < count; ++i) {
+        left -= weights[i];
+        if (!(left < 0.0))
+            continue;
+        rays[0].direction = rays[i].direction;
+        rays[0].far = rays[i].far;
+        return 1;
+    }
+    return 0; /* a sliver above the horizon, or next to nothing; or none was drawn by rounding: let it through */
 }
 
-/* All places, or one of them that is drawn by its weight: the same share in the mean (resampled importance sampling,
- * Talbot et al. 2005). */
-static double visible_share(const world *w, const candidate *all, int count, vec3 origin, const double *draw,
-                            uint32_t bits, ray_counts *counts)
+/* What is seen of all that the rays stand for. */
+static double visible_share(const area_shadow *s, const shade_point *p, const trace_ray *rays, const bool *dark)
 {
-    double sum = 0.0, seen = 0.0, skipped = 0.0;
-    for (int i = 0; i < count; ++i)
-        sum += all[i].weight;
+    double weights[AREA_MOST_RAYS], seen = 0.0, skipped = 0.0;
+    const double sum = weigh(s, p, rays, s->ray_count, weights);
     if (!(sum > 0.0)) /* a sliver above the horizon, or next to nothing: let it through */
         return 1.0;
-    double left = draw != NULL ? *draw * sum : 0.0;
-    for (int i = 0; i < count; ++i) {
-        if (!(all[i].weight > 0.0))
-            continue;
-        if (draw == NULL && all[i].weight < LEAST_SHARE * sum) {
-            skipped += all[i].weight;
-            continue;
-        }
-        if (draw == NULL) {
-            seen += passes(w, &all[i], origin, hash_combine(bits, (uint32_t)i), counts) ? all[i].weight : 0.0;
-            continue;
-        }
-        left -= all[i].weight;
-        if (left < 0.0)
-            return passes(w, &all[i], origin, bits, counts) ? 1.0 : 0.0;
+    for (int i = 0; i < s->ray_count; ++i) {
+        if (weights[i] < LEAST_SHARE * sum)
+            skipped += weights[i];
+        else if (!dark[i])
+            seen += weights[i];
     }
-    return draw != NULL ? 1.0 : fmin(seen / (sum - skipped), 1.0); /* by rounding, none was drawn */
+    return fmin(seen / (sum - skipped), 1.0);
 }
 
-static shade_area shape_of(const target *t, vec3 point)
+static shade_area shape_of(const area_shadow *s, vec3 point)
 {
-    const light *const l = t->light;
+    const light *const l = s->light;
     if (l->kind == SCENE_LIGHT_DIRECTIONAL)
         return (shade_area){ .kind = GLINT_AREA_SUN,
-                             .center = t->view->wi,
-                             .radius = t->view->sine,
-                             .solid_angle_sr = t->view->solid_angle_sr };
+                             .center = s->view.wi,
+                             .radius = s->view.sine,
+                             .solid_angle_sr = s->view.solid_angle_sr };
     const shade_area sphere = { .kind = GLINT_AREA_SPHERE, .center = v3_sub(l->position, point), .radius = l->radius };
     if (!light_is_area(l))
         return sphere;
@@ -173,30 +164,50 @@ static shade_area shape_of(const target *t, vec3 point)
                          .half_y = l->half_y };
 }
 
-bool area_light_reaches(const world *w, const hit *h, const shade_point *p, const light *l, const light_view *view,
-                        const sampler *random, uint32_t dimension, bool thorough, shade_area *area, ray_counts *counts)
+bool area_shadow_begin(const hit *h, const shade_point *p, const sampler *random, uint32_t dimension, bool thorough,
+                       area_shadow *s, trace_ray *rays, shade_area *area)
 {
-    const target t = { l, view };
-    *area = shape_of(&t, h->position);
+    const light *const l = s->light;
+    s->ray_count = 0;
+    s->is_shared = false;
+    *area = shape_of(s, h->position);
     if (!shade_faces_area(p, area))
         return false;
     if (l->unshadowed)
         return true;
     double u[2], draw[2];
-    sampler_pair(random, dimension, u);
-    sampler_pair(random, dimension + PARTNER, draw);
+    const bool is_one = !light_is_area(l) && s->view.sine < ONE_RAY;
     const uint32_t bits = sampler_bits(random, dimension + PARTNER);
-    const vec3 origin = hit_leave(h, h->shadow_origin);
-    candidate all[MOST_CANDIDATES];
-    if (!light_is_area(l) && view->sine < ONE_RAY) {
-        light_pick(l, view, origin, u, &all[0].direction, &all[0].distance);
-        return passes(w, &all[0], origin, bits, counts);
+    sampler_pair(random, dimension, u);
+    for (uint32_t i = 0; i < (is_one ? 1 : AREA_MOST_RAYS); ++i)
+        rays[i] = (trace_ray){ .origin = hit_leave(h, h->shadow_origin),
+                               .random = is_one || !thorough ? bits : hash_combine(bits, i) };
+    if (is_one) {
+        light_pick(l, &s->view, rays[0].origin, u, &rays[0].direction, &rays[0].far);
+        s->ray_count = 1;
+        return true;
     }
-    const bool sharp = has_sharp_layer(p);
-    int count = spread(p, &t, origin, u, sharp, all);
-    if (sharp)
-        count += reflect(p, &t, origin, bits, &all[count]);
-    const double seen = visible_share(w, all, count, origin, thorough ? NULL : &draw[0], bits, counts);
+    s->is_sharp = has_sharp_layer(p);
+    spread(s, u, rays);
+    const int count = AREA_SPREAD + (s->is_sharp ? reflect(s, p, bits, &rays[AREA_SPREAD]) : 0);
+    s->is_shared = thorough;
+    s->ray_count = count;
+    if (!thorough) {
+        sampler_pair(random, dimension + PARTNER, draw);
+        s->ray_count = draw_one(s, p, draw[0], rays, count);
+    }
+    return true;
+}
+
+bool area_shadow_end(const area_shadow *s, const shade_point *p, const trace_ray *rays, const bool *dark,
+                     shade_area *area)
+{
+    bool is_any = false;
+    for (int i = 0; i < s->ray_count; ++i)
+        is_any = is_any || dark[i];
+    if (!is_any || !s->is_shared)
+        return !is_any;
+    const double seen = visible_share(s, p, rays, dark);
     area->hidden = (float)(1.0 - seen);
     return seen > 0.0;
 }

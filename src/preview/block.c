@@ -1,5 +1,6 @@
-/* A packet is a square of pixels of the picture, always the same and always whole: of surfaces that coincide the ray
- * next door may decide which is seen, and a picture shall not depend on the tiles that it is cut into. */
+/* A packet is a square of pixels of the picture, always the same, and a block is always whole: of surfaces that
+ * coincide the ray next door may decide which is seen, and a picture shall not depend on the tiles that it is cut into.
+ * So pixels that no one wants to see are rendered where a tile ends within a block. */
 #include "preview/block.h"
 
 /* A packet has 4 x 4 pixels. */
@@ -17,65 +18,85 @@ void block_begin(block *b, int x, int y, const block_window *window)
     }
 }
 
-static bool is_wanted(const block *b, int first)
+static bool is_in_picture(const world *w, const block *b, int entry)
 {
-    for (int i = first; i < first + TRACE_PACKET; ++i)
-        if (b->is_seen[i])
-            return true;
-    return false;
+    return b->x[entry] < w->camera->width && b->y[entry] < w->camera->height;
 }
 
-/* The rays of a packet, as far as it is in the picture. */
-static void leave(const world *w, block *b, int first, uint32_t index, const trace_ray *rays[TRACE_PACKET])
+/* What the ray of a pixel has met. */
+static void look(const world *w, block *b, int entry, bool met, const trace_hit *found, ray_counts *counts)
 {
-    for (int i = 0; i < TRACE_PACKET; ++i) {
-        camera_sample *const s = &b->samples[first + i];
-        const int x = b->x[first + i], y = b->y[first + i];
-        rays[i] = NULL;
-        if (x >= w->camera->width || y >= w->camera->height)
-            continue;
-        camera_sample_leave(w, x, y, index, s);
-        rays[i] = &s->vertex.ray;
+    camera_sample *const s = &b->samples[entry];
+    ++counts->camera_rays;
+    if (!met) {
+        camera_sample_miss(w, s, &b->seen[entry]);
+        return;
     }
+    s->vertex.found = *found;
+    camera_sample_look(w, s);
+    b->points[b->point_count++] =
+        (direct_point){ &s->vertex, &s->random, camera_sample_throughput, &s->light, &s->facets, entry };
 }
 
-/* What the rays have met. Returns how many points there are then. */
-static int look(const world *w, block *b, int first, uint32_t found, const trace_hit hits[TRACE_PACKET], int points,
-                ray_counts *counts)
+static void look_first(const world *w, block *b, uint32_t index, ray_counts *counts)
 {
-    for (int i = 0; i < TRACE_PACKET; ++i) {
-        const int entry = first + i;
-        camera_sample *const s = &b->samples[entry];
-        if (!b->is_seen[entry])
-            continue;
-        ++counts->camera_rays;
-        if (!(found >> i & 1U)) {
-            camera_sample_miss(w, s, &b->seen[entry]);
-            continue;
+    b->point_count = 0;
+    for (int first = 0; first < BLOCK_PIXELS; first += TRACE_PACKET) {
+        const trace_ray *rays[TRACE_PACKET] = { NULL };
+        trace_hit hits[TRACE_PACKET];
+        for (int i = 0; i < TRACE_PACKET; ++i) {
+            camera_sample *const s = &b->samples[first + i];
+            if (!is_in_picture(w, b, first + i))
+                continue;
+            camera_sample_leave(w, b->x[first + i], b->y[first + i], index, s);
+            rays[i] = &s->vertex.ray;
         }
-        s->vertex.found = hits[i];
-        camera_sample_look(w, s);
-        b->points[points++] =
-            (direct_point){ &s->vertex.hit, &s->vertex.point, &s->random, &s->light, &s->facets, entry };
+        const uint32_t met = trace_closest_packet(w->trace, rays, TRACE_BLEND_SOLID, hits);
+        for (int i = 0; i < TRACE_PACKET; ++i)
+            if (rays[i] != NULL)
+                look(w, b, first + i, met >> i & 1U, &hits[i], counts);
     }
-    return points;
+}
+
+static void add_light(const world *w, block *b, ray_counts *counts)
+{
+    path_scratch *const s = &b->scratch;
+    add_direct_light_to_many(w, b->points, b->point_count, path_dimension(0, DIM_LIGHTS), &s->direct, counts);
+    add_glow_to_many(w, b->points, b->point_count, path_dimension(0, DIM_GLOW), &s->surroundings, counts);
+    add_surroundings_to_many(w, b->points, b->point_count, path_dimension(0, DIM_SURROUNDINGS), &s->surroundings,
+                             counts);
+    add_indirect_light_to_many(w, b->points, b->point_count, s, counts);
+}
+
+/* Through the surfaces that have been looked at. */
+static void look_behind(const world *w, block *b, ray_counts *counts)
+{
+    path_scratch *const s = &b->scratch;
+    int entries[BLOCK_PIXELS], count = 0;
+    for (int i = 0; i < b->point_count; ++i) {
+        const int entry = b->points[i].entry;
+        if (!camera_sample_go_on(&b->samples[entry]))
+            continue;
+        s->rays[count] = &b->samples[entry].vertex.ray;
+        entries[count++] = entry;
+    }
+    trace_closest_many(w->trace, s->rays, count, TRACE_BLEND_SOLID, s->hits, s->met);
+    b->point_count = 0;
+    for (int i = 0; i < count; ++i)
+        look(w, b, entries[i], s->met[i], &s->hits[i], counts);
 }
 
 void block_integrate(const world *w, block *b, uint32_t index, bool described, ray_counts *counts)
 {
-    int points = 0;
-    for (int first = 0; first < BLOCK_PIXELS; first += TRACE_PACKET) {
-        const trace_ray *rays[TRACE_PACKET];
-        trace_hit hits[TRACE_PACKET];
-        if (!is_wanted(b, first))
-            continue;
-        leave(w, b, first, index, rays);
-        const uint32_t found = trace_closest_packet(w->trace, rays, TRACE_BLEND_SOLID, hits);
-        points = look(w, b, first, found, hits, points, counts);
-    }
-    add_direct_light_to_many(w, b->points, points, camera_sample_lights(), &b->direct, counts);
-    for (int i = 0; i < points; ++i) {
-        const int entry = b->points[i].entry;
-        camera_sample_end(w, &b->samples[entry], described, &b->seen[entry], counts);
+    look_first(w, b, index, counts);
+    while (b->point_count > 0) {
+        add_light(w, b, counts);
+        for (int i = 0; i < b->point_count; ++i) {
+            const int entry = b->points[i].entry;
+            camera_sample_end(w, &b->samples[entry], described, &b->seen[entry]);
+        }
+        if (!EFFECT_ALPHA || !w->is_blended)
+            return;
+        look_behind(w, b, counts);
     }
 }

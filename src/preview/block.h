@@ -14,16 +14,18 @@ typedef struct block_window {
 typedef struct block {
     int x[BLOCK_PIXELS], y[BLOCK_PIXELS]; /* pixels of the picture */
     bool is_seen[BLOCK_PIXELS];           /* it is in the window */
-    pixel_sample seen[BLOCK_PIXELS];      /* what comes of it, where it is */
+    pixel_sample seen[BLOCK_PIXELS];      /* what comes of it, where it is in the picture */
     camera_sample samples[BLOCK_PIXELS];
+    /* Those that look at a surface, and what light is added to it. */
+    int point_count;
     direct_point points[BLOCK_PIXELS];
-    direct_scratch direct;
+    path_scratch scratch;
 } block;
 
 /* The block whose first pixel is (x, y), multiples of BLOCK_SIDE. */
 void block_begin(block *b, int x, int y, const block_window *window);
 
-/* integrate, bit for bit, for sample number index of those pixels of the block that lie in the window. */
+/* integrate, bit for bit, for sample number index of the block's pixels. */
 void block_integrate(const world *w, block *b, uint32_t index, bool described, ray_counts *counts);
 
 #endif

@@ -2,27 +2,30 @@
 #ifndef PREVIEW_CAMERA_SAMPLE_H
 #define PREVIEW_CAMERA_SAMPLE_H
 
-#include "preview/direct.h"
+#include "preview/path.h"
 
 typedef struct camera_sample {
-    sampler random;
-    double jitter[2]; /* where in its pixel */
-    vertex vertex;    /* what it sees first */
-    radiance light;   /* that comes from there */
+    sampler first, random; /* of the first surface, and of the one that is looked at */
+    double jitter[2];      /* where in its pixel */
+    int layer;             /* blended surfaces that the ray has passed */
+    float transmittance;   /* of those */
+    vertex vertex;         /* what it sees behind them */
+    radiance light;        /* that comes from there */
     direct_facets facets;
 } camera_sample;
 
-/* The dimensions of the sampler for the lights at what it sees first. */
-uint32_t camera_sample_lights(void);
+/* What light of the surface that is looked at is multiplied with. */
+extern const float camera_sample_throughput[3];
 
-/* Sample number index of the pixel (x, y): its ray. */
+/* Sample number index of the pixel (x, y): its ray, which is to be traced with TRACE_BLEND_SOLID. */
 void camera_sample_leave(const world *w, int x, int y, uint32_t index, camera_sample *s);
-/* The ray has met vertex.found, of layers the first, with TRACE_BLEND_SOLID: what that emits. */
+/* The ray has met vertex.found: what that emits. */
 void camera_sample_look(const world *w, camera_sample *s);
-/* It has met nothing. */
+/* It has met nothing, and the sample ends. */
 void camera_sample_miss(const world *w, const camera_sample *s, pixel_sample *out);
-/* Direct light has been added: all the rest, and the surfaces behind. described: all of *out, not only light and
- * alpha. */
-void camera_sample_end(const world *w, camera_sample *s, bool described, pixel_sample *out, ray_counts *counts);
+/* All light of the surface has been added. described: all of *out, not only light and alpha. */
+void camera_sample_end(const world *w, const camera_sample *s, bool described, pixel_sample *out);
+/* The ray to the next surface behind. False: nothing can be seen of that, and the sample ends. */
+bool camera_sample_go_on(camera_sample *s);
 
 #endif

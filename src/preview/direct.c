@@ -4,55 +4,115 @@
 
 #include <math.h>
 
-#include "preview/area_shadow.h"
 #include "preview/choose_lights.h"
+#include "preview/hash.h"
 
 /* The ray that a cap waits for, towards a place of the light. */
 static void aim(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
-                uint32_t dimension, trace_ray *ray, ray_counts *counts)
+                uint32_t dimension, trace_ray *ray)
 {
     double u[2] = { 0.0, 0.0 };
-    ++counts->shadow_rays;
     *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin) };
-    if (w->is_blended)
+    if (EFFECT_ALPHA && w->is_blended)
         ray->random = sampler_bits(random, dimension);
     if (light_is_soft(l))
         sampler_pair(random, dimension, u);
     light_pick(l, view, ray->origin, u, &ray->direction, &ray->far);
 }
 
-/* False: the light does not reach the point, and nothing has to be asked for it. */
-static bool gather_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                         const light *l, bool thorough, light_query *q, ray_counts *counts)
+/* A light as the cap that it is to the point. */
+static void gather_cap(const world *w, const hit *h, const sampler *random, uint32_t dimension, light_query *q,
+                       trace_ray *ray)
 {
-    light_view view;
-    if (!light_see(l, h->position, &view))
+    const light_view *const view = &q->shadow.view;
+    q->shade.wi = view->wi;
+    q->shade.solid_angle_sr = view->solid_angle_sr;
+    q->shadow.is_shared = false;
+    q->shadow.ray_count = q->shadow.light->unshadowed ? 0 : 1;
+    if (q->shadow.ray_count > 0)
+        aim(w, h, q->shadow.light, view, random, dimension, ray);
+}
+
+/* The same as a shape. False: it lies below the horizon. */
+static bool gather_shape(const hit *h, const sampler *random, uint32_t dimension, bool thorough, light_query *q,
+                         trace_ray *rays)
+{
+    if (!light_is_area(q->shadow.light)) {
+        const float scale = (float)light_radiance_per_irradiance(&q->shadow.view);
+        for (int c = 0; c < 3; ++c)
+            q->irradiance[c] *= scale;
+    }
+    return area_shadow_begin(h, q->shade.point, random, dimension, thorough, &q->shadow, rays, &q->shade.area);
+}
+
+/* rays: room for those that the query then waits for. False: the light does not reach the point, and nothing has to be
+ * asked for it. */
+static bool gather_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                         const light *l, bool thorough, light_query *q, trace_ray *rays, ray_counts *counts)
+{
+    light_view *const view = &q->shadow.view;
+    if (!light_see(l, h->position, view))
         return false;
-    const bool is_round = view.sine > 0.0 && shade_tells_shape(p, view.wi, view.sine);
-    const float scale = is_round ? (float)light_radiance_per_irradiance(&view) : 1.0F;
+    const shade_sight sight = light_is_area(l) ? SHADE_SHAPE : shade_see(p, &view->wi, view->sine);
+    if (sight == SHADE_UNSEEN)
+        return false;
     for (int c = 0; c < 3; ++c)
-        q->irradiance[c] = view.irradiance[c] * scale;
-    q->waits = false;
+        q->irradiance[c] = view->irradiance[c];
     q->weight = 1.0F;
+    q->shadow.light = l;
     q->shade.point = p;
-    q->shade.is_area = is_round || light_is_area(l);
-    if (q->shade.is_area)
-        return area_light_reaches(w, h, p, l, &view, random, dimension, thorough, &q->shade.area, counts);
-    if (!shade_faces(p, view.wi))
+    q->shade.is_area = sight == SHADE_SHAPE;
+    if (!shade_is_area(&q->shade))
+        gather_cap(w, h, random, dimension, q, rays);
+    else if (!gather_shape(h, random, dimension, thorough, q, rays))
         return false;
-    q->shade.wi = view.wi;
-    q->shade.solid_angle_sr = view.solid_angle_sr;
-    q->waits = !l->unshadowed;
-    if (q->waits)
-        aim(w, h, l, &view, random, dimension, &q->shadow, counts);
+    counts->shadow_rays += (uint64_t)q->shadow.ray_count;
+    if (shade_is_area(&q->shade) && w->cap_error > 0.0)
+        q->draw = hash_uniform(hash_mix(sampler_bits(random, dimension)));
+    return true;
+}
+
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap)
+{
+    if (light_is_area(l) ? !light_see_round(l, position, cap) : !light_see(l, position, cap) || !(cap->sine > 0.0))
+        return (double)INFINITY;
+    return shade_cap_error(p, cap->wi, cap->sine) + light_round_error(l, cap);
+}
+
+/* A shape that all of the point sees becomes a cap where the view allows that. Up to half of the error that may be all
+ * samples take the cap, beyond it ever fewer, so that no seam shows where shapes begin. */
+static void take_cap(const world *w, const hit *h, light_query *q)
+{
+    light_view cap;
+    if (q->shade.area.hidden > 0.0F)
+        return;
+    const double error = direct_cap_error(q->shadow.light, q->shade.point, h->position, &cap), most = w->cap_error;
+    if (!(error < most) || 2.0 * error > most * (1.0 + (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
+        return;
+    q->shade.is_area = false;
+    q->shade.wi = cap.wi;
+    q->shade.solid_angle_sr = cap.solid_angle_sr;
+    for (int c = 0; c < 3; ++c)
+        q->irradiance[c] = cap.irradiance[c];
+}
+
+/* dark: which of its rays met something. */
+static bool is_lit(const world *w, const hit *h, light_query *q, const trace_ray *rays, const bool *dark)
+{
+    if (!shade_is_area(&q->shade))
+        return q->shadow.ray_count == 0 || !dark[0];
+    if (!area_shadow_end(&q->shadow, q->shade.point, rays, dark, &q->shade.area))
+        return false;
+    if (w->cap_error > 0.0)
+        take_cap(w, h, q);
     return true;
 }
 
 static void count_evaluation(const shade_query *q, ray_counts *counts)
 {
-    for (int i = 0; i < q->point->layer_count; ++i)
+    for (int i = 0; i < shade_layers(q->point); ++i)
         ++*(q->point->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals);
-    if (q->value.over_limit) {
+    if (EFFECT_FACET_LIMIT && q->value.over_limit) {
         ++counts->over_limit;
         counts->most_facets = fmaxf(counts->most_facets, q->value.facet_count);
     }
@@ -74,13 +134,16 @@ static void add_up(const light_query *q, const float throughput[3], radiance *su
 }
 
 /* One light at one point, from its ray to its sum. */
-static void add_light(const world *w, light_query *q, const float throughput[3], radiance *sum, direct_facets *facets,
-                      ray_counts *counts)
+static void add_light(const world *w, const hit *h, light_query *q, const trace_ray *rays, const float throughput[3],
+                      radiance *sum, direct_facets *facets, ray_counts *counts)
 {
     shade_query *const s = &q->shade;
-    if (q->waits && trace_occluded(w->trace, &q->shadow))
+    bool dark[AREA_MOST_RAYS] = { false };
+    for (int i = 0; i < q->shadow.ray_count; ++i)
+        dark[i] = trace_occluded(w->trace, &rays[i]);
+    if (!is_lit(w, h, q, rays, dark))
         return;
-    if (s->is_area)
+    if (shade_is_area(s))
         shade_eval_area(s->point, &s->area, &s->value);
     else
         shade_eval(s->point, s->wi, s->solid_angle_sr, &s->value);
@@ -100,94 +163,95 @@ void add_direct_light(const world *w, const hit *h, const shade_point *p, const 
 {
     chosen_light chosen[MOST_LIGHTS];
     light_query q;
-    const bool is_any = w->light_count > MOST_LIGHTS;
+    trace_ray rays[AREA_MOST_RAYS];
+    const bool is_any = EFFECT_MANY_LIGHTS && w->light_count > MOST_LIGHTS;
     const int count = is_any ? choose(w, h, p, random, dimension, chosen) : w->light_count;
     for (int i = 0; i < count; ++i) {
         const int index = is_any ? chosen[i].index : i;
-        if (!gather_light(w, h, p, random, dimension + (uint32_t)index, &w->lights[index], facets != NULL, &q, counts))
+        if (!gather_light(w, h, p, random, dimension + (uint32_t)index, &w->lights[index], facets != NULL, &q, rays,
+                          counts))
             continue;
         if (is_any)
             q.weight = 1.0F / chosen[i].probability;
-        add_light(w, &q, throughput, sum, facets, counts);
+        add_light(w, h, &q, rays, throughput, sum, facets, counts);
     }
 }
 
 /* ---- many points ---- */
 
-static int gather_at(const world *w, const direct_point *p, uint32_t dimension, int index, light_query *q,
-                     ray_counts *counts)
+/* A light that stands for `weight` lights, at one of the points. */
+static void gather_at(const world *w, const direct_point *p, uint32_t dimension, int index, float weight,
+                      direct_scratch *s, ray_counts *counts)
 {
+    light_query *const q = &s->queries[s->query_count];
+    if (!gather_light(w, &p->vertex->hit, &p->vertex->point, p->random, dimension + (uint32_t)index, &w->lights[index],
+                      p->facets != NULL, q, &s->rays[s->ray_count], counts))
+        return;
     q->to = p;
-    return gather_light(w, p->hit, p->point, p->random, dimension + (uint32_t)index, &w->lights[index], true, q,
-                        counts);
+    q->weight = weight;
+    q->first_ray = s->ray_count;
+    s->ray_count += q->shadow.ray_count;
+    ++s->query_count;
 }
 
 /* Light by light, so that rays to one light run side by side. */
-static int gather_all(const world *w, const direct_point *points, int count, uint32_t dimension, light_query *queries,
-                      ray_counts *counts)
+static void gather_all(const world *w, const direct_point *points, int count, uint32_t dimension, direct_scratch *s,
+                       ray_counts *counts)
 {
-    int found = 0;
     for (int i = 0; i < w->light_count; ++i)
         for (int k = 0; k < count; ++k)
-            found += gather_at(w, &points[k], dimension, i, &queries[found], counts);
-    return found;
+            gather_at(w, &points[k], dimension, i, 1.0F, s, counts);
 }
 
-static int gather_chosen(const world *w, const direct_point *points, int count, uint32_t dimension,
-                         light_query *queries, ray_counts *counts)
+static void gather_chosen(const world *w, const direct_point *points, int count, uint32_t dimension, direct_scratch *s,
+                          ray_counts *counts)
 {
-    int found = 0;
     for (int k = 0; k < count; ++k) {
         const direct_point *const p = &points[k];
         chosen_light chosen[MOST_LIGHTS];
-        const int chosen_count = choose(w, p->hit, p->point, p->random, dimension, chosen);
-        for (int i = 0; i < chosen_count; ++i) {
-            if (!gather_at(w, p, dimension, chosen[i].index, &queries[found], counts))
-                continue;
-            queries[found++].weight = 1.0F / chosen[i].probability;
-        }
+        const int chosen_count = choose(w, &p->vertex->hit, &p->vertex->point, p->random, dimension, chosen);
+        for (int i = 0; i < chosen_count; ++i)
+            gather_at(w, p, dimension, chosen[i].index, 1.0F / chosen[i].probability, s, counts);
     }
-    return found;
 }
 
-/* Leaves those in the list that nothing stands before. */
-static int trace_shadows(const world *w, light_query *queries, int count, light_query **lit)
+/* Lists those that something is left of. */
+static int list_lit(const world *w, direct_scratch *s)
 {
-    int lit_count = 0;
-    for (int first = 0; first < count; first += TRACE_PACKET) {
-        const trace_ray *rays[TRACE_PACKET] = { NULL };
-        for (int i = first; i < count && i < first + TRACE_PACKET; ++i)
-            rays[i - first] = queries[i].waits ? &queries[i].shadow : NULL;
-        const uint32_t dark = trace_occluded_packet(w->trace, rays);
-        for (int i = first; i < count && i < first + TRACE_PACKET; ++i)
-            if (!(dark >> (i - first) & 1U))
-                lit[lit_count++] = &queries[i];
+    int count = 0;
+    for (int i = 0; i < s->query_count; ++i) {
+        light_query *const q = &s->queries[i];
+        if (!is_lit(w, &q->to->vertex->hit, q, &s->rays[q->first_ray], &s->dark[q->first_ray]))
+            continue;
+        s->shades[count] = &q->shade;
+        s->lit[count++] = q;
     }
-    return lit_count;
+    return count;
 }
-
-static const float whole[3] = { 1.0F, 1.0F, 1.0F };
 
 /* Points of at most SHADE_MOST_QUERIES lights together. */
 static void add_some(const world *w, const direct_point *points, int count, uint32_t dimension, direct_scratch *s,
                      ray_counts *counts)
 {
-    const int found = w->light_count > MOST_LIGHTS ? gather_chosen(w, points, count, dimension, s->queries, counts)
-                                                   : gather_all(w, points, count, dimension, s->queries, counts);
-    const int lit = trace_shadows(w, s->queries, found, s->lit);
-    for (int i = 0; i < lit; ++i)
-        s->shades[i] = &s->lit[i]->shade;
+    s->query_count = s->ray_count = 0;
+    if (EFFECT_MANY_LIGHTS && w->light_count > MOST_LIGHTS)
+        gather_chosen(w, points, count, dimension, s, counts);
+    else
+        gather_all(w, points, count, dimension, s, counts);
+    trace_occluded_many(w->trace, s->rays, s->ray_count, s->dark);
+    const int lit = list_lit(w, s);
     shade_eval_many(s->shades, lit);
     for (int i = 0; i < lit; ++i) {
+        const direct_point *const to = s->lit[i]->to;
         count_evaluation(s->shades[i], counts);
-        add_up(s->lit[i], whole, s->lit[i]->to->light, s->lit[i]->to->facets);
+        add_up(s->lit[i], to->throughput, to->light, to->facets);
     }
 }
 
 void add_direct_light_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
                               direct_scratch *s, ray_counts *counts)
 {
-    const int lights = w->light_count < MOST_LIGHTS ? w->light_count : MOST_LIGHTS;
+    const int lights = EFFECT_MANY_LIGHTS && w->light_count > MOST_LIGHTS ? MOST_LIGHTS : w->light_count;
     if (lights == 0)
         return;
     const int most = SHADE_MOST_QUERIES / lights;

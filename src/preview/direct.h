@@ -2,8 +2,7 @@
 #ifndef PREVIEW_DIRECT_H
 #define PREVIEW_DIRECT_H
 
-#include "preview/integrator.h"
-#include "preview/sampler.h"
+#include "preview/area_shadow.h"
 
 /* What single facets did at the point: under the light that is brightest there. */
 typedef struct direct_facets {
@@ -16,13 +15,16 @@ typedef struct direct_facets {
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts);
 
+/* About how much a light with a shape would be off as a cap, and the cap: relative, infinite where it cannot be one. */
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap);
+
 /* ---- many points at once ---- */
 
-/* One that the camera sees. */
+/* One of them: see add_direct_light. */
 typedef struct direct_point {
-    const hit *hit;
-    const shade_point *point;
+    const vertex *vertex;
     const sampler *random;
+    const float *throughput;
     radiance *light;
     direct_facets *facets;
     int entry; /* the caller's */
@@ -33,18 +35,24 @@ typedef struct light_query {
     shade_query shade;
     float irradiance[3]; /* radiance where it is seen as a shape */
     float weight;        /* how many lights it stands for */
-    bool waits;          /* for its shadow ray */
-    trace_ray shadow;
+    area_shadow shadow;  /* of a cap too: one ray */
+    int first_ray;       /* that it waits for */
+    float draw;          /* where shapes may be caps: uniform in [0, 1) */
     const direct_point *to;
 } light_query;
+
+enum { DIRECT_MOST_RAYS = SHADE_MOST_QUERIES * AREA_MOST_RAYS };
 
 /* What the work on many points needs, made before the first of them. */
 typedef struct direct_scratch {
     light_query queries[SHADE_MOST_QUERIES], *lit[SHADE_MOST_QUERIES];
     shade_query *shades[SHADE_MOST_QUERIES];
+    trace_ray rays[DIRECT_MOST_RAYS];
+    bool dark[DIRECT_MOST_RAYS]; /* which of them met something */
+    int query_count, ray_count;
 } direct_scratch;
 
-/* add_direct_light for each of them, with a throughput of 1, bit for bit. */
+/* add_direct_light for each of them, bit for bit. */
 void add_direct_light_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
                               direct_scratch *s, ray_counts *counts);
 

@@ -130,6 +130,7 @@ static bool make_layers(const scene *s, int index, const preview_options *o, con
     } else if (done) {
         done = make(s, index, &base.options, out, r);
     }
+    out->draws = base.options.draw_deviation > 0.0F || coat.options.draw_deviation > 0.0F;
     out->base_mapped = base.normals != NULL;
     out->coat_mapped = coat.normals != NULL;
     free(base.normals);

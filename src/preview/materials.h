@@ -11,6 +11,7 @@ typedef struct material_layers {
     const glint_material *base;    /* of whole, or the same */
     const glint_material *coat;    /* of whole; NULL: there is no clear coat */
     bool base_counts, coat_counts; /* single facets show: the layer wants a footprint */
+    bool draws;                    /* of their realisations one may be drawn for a sample */
     bool base_mapped, coat_mapped; /* a normal map shows: the layer wants a frame along u and v */
 } material_layers;
 

@@ -1,6 +1,7 @@
 /* Texture coordinates or three planes: both give u and v in metres, with derivatives per pixel. */
 #include "preview/place.h"
 
+#include "preview/effects.h"
 #include "preview/hash.h"
 
 /* Instances of one node are one object and share their facets; other nodes have others. */
@@ -92,7 +93,7 @@ glint_footprint place_footprint(const scene_glint *g, const hit *h, const hit_st
                                 float *density_scale)
 {
     *density_scale = 1.0F;
-    if (place_is_in_texture_space(g, h->mesh))
+    if (!EFFECT_FACET_PLANES || place_is_in_texture_space(g, h->mesh))
         return place_by_texcoord(g, h, step);
     return place_on_planes(h, step, choice, density_scale);
 }

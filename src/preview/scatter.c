@@ -34,7 +34,7 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3])
 /* How much of a layer's light from wi is seen. */
 static void weigh(const shade_point *p, int i, vec3 wi, float weight[3])
 {
-    if (i == 0 && p->layer_count == 2)
+    if (i == 0 && shade_layers(p) == 2)
         shade_below_coat(p, &wi, weight);
     else
         weight[0] = weight[1] = weight[2] = p->layers[i].weight;
@@ -51,7 +51,7 @@ static float widened(float alpha, double slope_variance)
 
 void shade_widen(shade_point *p, double slope_variance)
 {
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         glint_surface *const s = &p->layers[i].surface;
         /* It sees the mean of the flashes of many directions: to count facets there would add noise and nothing else.
          */
@@ -65,7 +65,7 @@ void shade_widen(shade_point *p, double slope_variance)
 
 bool shade_faces(const shade_point *p, vec3 wi)
 {
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         if (p->layers[i].wo[2] > 0.0F && v3_dot(wi, p->layers[i].z) > 0.0)
             return true;
     }
@@ -99,7 +99,7 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 {
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle_sr };
     *value = (glint_value){ 0 };
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const shade_layer *const layer = &p->layers[i];
         float local[3];
         glint_value one;
@@ -118,9 +118,7 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
  * is g^2 in the middle of a highlight and 2 g^2 / s^2 far from it. So a real sun is a shape in the highlight of a
  * lacquer, and a cap wherever else, at a third of the cost. A Beckmann lobe is off by half of that in its middle; by
  * more in its tail, but by less than that of what the middle is. */
-#define MOST_CAP_ERROR 0.01
-
-static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
+static double cap_error(const shade_layer *layer, const float local[3], double sine)
 {
     const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
                         (double)local[2] + (double)layer->wo[2]);
@@ -131,18 +129,78 @@ static bool cap_is_off(const shade_layer *layer, const float local[3], double si
     const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
     const double g = sine / (2.0 * h_dot_wi * cosine * cosine * alpha), s2 = x * x + y * y;
     /* More than |2 s^2 - 1|, which vanishes where the next term does not. */
-    return g * g * (1.0 + 2.0 * s2) > MOST_CAP_ERROR * (1.0 + s2) * (1.0 + s2);
+    return g * g * (1.0 + 2.0 * s2) / ((1.0 + s2) * (1.0 + s2));
+}
+
+double shade_cap_error(const shade_point *p, vec3 wi, double sine)
+{
+    double most = 0.0;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        float local[3];
+        shade_to_local(&p->layers[i], wi, local);
+        if (fabs((double)local[2]) < sine)
+            return (double)INFINITY;
+        most = fmax(most, cap_error(&p->layers[i], local, sine));
+    }
+    return most;
+}
+
+static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
+{
+    return cap_error(layer, local, sine) > SHADE_CAP_ERROR;
+}
+
+#define MOST_SPREAD 0.1 /* of g in the middle of a highlight: its square is SHADE_CAP_ERROR */
+
+/* Whether a light stands above the horizon and its cap is never off: with |wi + wo| = 2 h.wi at most 2, g is at most
+ * 2 sine / (((wi + wo).n)^2 alpha), and the error is nowhere larger than for s = 0. cosine: wi.n. */
+static inline bool is_surely_cap(const shade_layer *layer, double cosine, double sine)
+{
+    const float alpha_x = layer->surface.alpha_x, alpha_y = layer->surface.alpha_y;
+    const float alpha = alpha_x < alpha_y ? alpha_x : alpha_y;
+    const double sum = cosine + (double)layer->wo[2];
+    return layer->wo[2] > 0.0F && cosine > sine && sine <= 0.5 * MOST_SPREAD * (double)alpha * (sum * sum);
+}
+
+static bool is_lit(const shade_layer *layer, double cosine)
+{
+    return layer->wo[2] > 0.0F && cosine > 0.0;
+}
+
+/* Few lights ask, and the others shall not pay for its registers. */
+static __attribute__((noinline)) shade_sight see_exactly(const shade_point *p, const vec3 *wi, double sine)
+{
+    shade_sight sight = SHADE_UNSEEN;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const double cosine = v3_dot(*wi, layer->z);
+        float local[3];
+        shade_to_local(layer, *wi, local);
+        if (fabs(cosine) < sine || cap_is_off(layer, local, sine))
+            return SHADE_SHAPE;
+        if (is_lit(layer, cosine))
+            sight = SHADE_CAP;
+    }
+    return sight;
+}
+
+shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine)
+{
+    shade_sight sight = SHADE_UNSEEN;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        const shade_layer *const layer = &p->layers[i];
+        const double cosine = v3_dot(*wi, layer->z);
+        if (EFFECT_ROUND_SHAPES && sine > 0.0 && !is_surely_cap(layer, cosine, sine))
+            return see_exactly(p, wi, sine);
+        if (is_lit(layer, cosine))
+            sight = SHADE_CAP;
+    }
+    return sight;
 }
 
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
 {
-    for (int i = 0; i < p->layer_count; ++i) {
-        float local[3];
-        shade_to_local(&p->layers[i], wi, local);
-        if (fabs((double)local[2]) < sine || cap_is_off(&p->layers[i], local, sine))
-            return true;
-    }
-    return false;
+    return shade_see(p, &wi, sine) == SHADE_SHAPE;
 }
 
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
@@ -160,7 +218,7 @@ void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint
  * nearest above the coat's horizon. */
 vec3 shade_towards_area(const shade_point *p, const shade_area *area)
 {
-    const vec3 z = p->layers[p->layer_count - 1].z;
+    const vec3 z = p->layers[shade_layers(p) - 1].z;
     const vec3 middle = v3_normalize(area->center);
     const double height = v3_dot(middle, z);
     return height >= LOWEST ? middle : v3_normalize(v3_mad(middle, z, LOWEST - height));
@@ -170,7 +228,7 @@ void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *
 {
     const vec3 middle = shade_towards_area(p, area);
     *value = (glint_value){ 0 };
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const shade_layer *const layer = &p->layers[i];
         glint_area_light light;
         glint_value one;
@@ -183,7 +241,7 @@ void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *
 
 bool shade_faces_area(const shade_point *p, const shade_area *area)
 {
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const vec3 z = p->layers[i].z;
         const double highest =
             v3_dot(area->center, z) + fabs(v3_dot(area->half_x, z)) + fabs(v3_dot(area->half_y, z)) + area->radius;
@@ -196,7 +254,7 @@ bool shade_faces_area(const shade_point *p, const shade_area *area)
 float shade_level(const shade_point *p, vec3 wi)
 {
     float sum = 0.0F;
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const shade_layer *const layer = &p->layers[i];
         float local[3], rgb[3];
         shade_to_local(layer, wi, local);
@@ -223,7 +281,7 @@ static float importance(const shade_layer *layer)
 /* The probability that shade_sample chooses a layer. */
 static float share_of(const shade_point *p, int layer)
 {
-    if (p->layer_count < 2)
+    if (shade_layers(p) < 2)
         return 1.0F;
     const float base = importance(&p->layers[0]);
     const float coat = importance(&p->layers[1]);
@@ -243,7 +301,7 @@ static glint_surface surface_in_surroundings(const shade_point *p, const shade_l
 float shade_pdf(const shade_point *p, vec3 wi)
 {
     float sum = 0.0F;
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const shade_layer *const layer = &p->layers[i];
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3];
@@ -257,7 +315,7 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
 {
     if (p->layer_count == 0)
         return false;
-    const int chosen = p->layer_count == 2 && choose_layer < share_of(p, 1) ? 1 : 0;
+    const int chosen = shade_layers(p) == 2 && choose_layer < share_of(p, 1) ? 1 : 0;
     const float share = share_of(p, chosen);
     const shade_layer *const layer = &p->layers[chosen];
     const glint_surface surface = surface_in_surroundings(p, layer);
@@ -297,7 +355,7 @@ static void eval_patch(const shade_layer *layer, const glint_surface *surface, c
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
 {
     *value = (glint_value){ 0 };
-    for (int i = 0; i < p->layer_count; ++i) {
+    for (int i = 0; i < shade_layers(p); ++i) {
         const shade_layer *const layer = &p->layers[i];
         const glint_surface surface = surface_in_surroundings(p, layer);
         float local[3], weight[3];

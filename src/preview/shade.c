@@ -17,7 +17,7 @@ typedef struct lookup {
 static void look_up(const lookup *l, const scene_texture *t, float rgba[4])
 {
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1.0F;
-    if (t->image == SCENE_NONE)
+    if (!EFFECT_TEXTURES || t->image == SCENE_NONE)
         return;
     const int set = t->texcoord;
     texture_lookup(l->textures, t, (float)l->st[set][0], (float)l->st[set][1], (float)l->dx[set][0],
@@ -87,7 +87,7 @@ static scene_texels look_up_texels(const lookup *l, const scene_material *m)
 static vec3 mapped_normal(const lookup *l, const scene_texture *map, vec3 wo)
 {
     const hit *const h = l->hit;
-    if (map->image == SCENE_NONE || h->mesh->tangent == NULL)
+    if (!EFFECT_NORMAL_MAPS || map->image == SCENE_NONE || h->mesh->tangent == NULL)
         return h->normal;
     float c[4];
     look_up(l, map, c);
@@ -136,7 +136,7 @@ void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
 static void add_coat(const lookup *l, const scene_material *m, const scene_texels *t, const material_layers *handles,
                      vec3 wo, shade_point *out)
 {
-    if (handles->coat == NULL || !(t->clearcoat > 0.0F))
+    if (!EFFECT_COATS || handles->coat == NULL || !(t->clearcoat > 0.0F))
         return;
     shade_layer *const coat = &out->layers[out->layer_count++];
     coat->material = handles->coat;
@@ -170,24 +170,23 @@ static void align_to_map(shade_layer *layer, const hit *h, const scene_glint *g,
     }
 }
 
-void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out)
+void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo,
+                        scene_glint_layer which, shade_layer *layer)
 {
-    const scene_material *const m = &s->scene->materials[h->mesh->material];
-    static const scene_glint_layer of[2] = { SCENE_LAYER_BASE, SCENE_LAYER_CLEARCOAT };
-    for (int i = 0; i < out->layer_count && i < 2; ++i) {
-        const scene_glint *const g = scene_layer_glint(m, of[i]);
-        if (!out->layers[i].counts || g == NULL)
-            continue;
-        float density_scale;
-        out->layers[i].footprint = place_footprint(g, h, step, choice, &density_scale);
-        /* Other renderers know no objects' seeds: their facets hang on the texture coordinates alone. */
-        if (s->materials->facets != PREVIEW_FACETS_OWN)
-            out->layers[i].footprint.seed = 0U;
-        out->layers[i].surface.facets_per_m2 *= density_scale;
-        out->layers[i].is_own = out->layers[i].is_own && density_scale == 1.0F;
-        if (out->layers[i].mapped)
-            align_to_map(&out->layers[i], h, g, choice, wo);
+    const scene_glint *const g = scene_layer_glint(&s->scene->materials[h->mesh->material], which);
+    if (!layer->counts || g == NULL)
+        return;
+    float density_scale;
+    layer->footprint = place_footprint(g, h, step, choice, &density_scale);
+    /* Other renderers know no objects' seeds: their facets hang on the texture coordinates alone. */
+    if (EFFECT_FACETS_OF_OTHERS && s->materials->facets != PREVIEW_FACETS_OWN)
+        layer->footprint.seed = 0U;
+    if (EFFECT_FACET_PLANES && density_scale != 1.0F) {
+        layer->surface.facets_per_m2 *= density_scale;
+        layer->is_own = false;
     }
+    if (EFFECT_EXAMPLES && layer->mapped)
+        align_to_map(layer, h, g, choice, wo);
 }
 
 void shade_prepare_any(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
@@ -227,7 +226,13 @@ void shade_prepare_any(const shader *s, const hit *h, const hit_step *step, vec3
     shade_set_frame(base, mapped_normal(&l, &m->normal_texture, wo), anisotropy_direction(&l, m), wo);
     out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
-    shade_place_glints(s, h, step, choice, wo, out);
+    out->draws = handles->draws;
+    out->counts = base->counts || (shade_layers(out) == 2 && out->layers[1].counts);
+    if (!EFFECT_FACETS || !out->counts)
+        return;
+    shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_BASE, base);
+    if (shade_layers(out) == 2)
+        shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_CLEARCOAT, &out->layers[1]);
 }
 
 float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)

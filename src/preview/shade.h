@@ -3,6 +3,7 @@
 #define PREVIEW_SHADE_H
 
 #include "io/image.h"
+#include "preview/effects.h"
 #include "preview/hit.h"
 #include "preview/materials.h"
 
@@ -21,12 +22,18 @@ typedef struct shade_layer {
 typedef struct shade_point {
     shade_layer layers[2];       /* the base, then the coat */
     int layer_count;             /* 0: unlit */
+    bool counts, draws;          /* of any layer: see material_layers */
     const glint_material *whole; /* both layers, of which they are part */
     float emission[3];
     float occlusion; /* of diffuse light from all around: occlusionTexture */
     float opacity;
     float albedo[3]; /* base colour, for the picture of that name */
 } shade_point;
+
+static inline int shade_layers(const shade_point *p)
+{
+    return EFFECT_COATS ? p->layer_count : p->layer_count > 0;
+}
 
 typedef struct shader {
     const scene *scene;
@@ -63,6 +70,16 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);
 
+/* How a round light around wi (world, unit) is seen. */
+typedef enum shade_sight {
+    SHADE_UNSEEN,
+    SHADE_CAP,
+    SHADE_SHAPE /* it stands astride a layer's horizon, or the reflection changes over it */
+} shade_sight;
+
+/* sine: of its angular radius; 0: it is no shape to anyone. */
+shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine);
+
 /* A light as a shape as the point sees it, in world axes: sun, sphere, rectangle or disk. */
 typedef struct shade_area {
     glint_area_kind kind;
@@ -75,8 +92,11 @@ typedef struct shade_area {
 /* The same three for it: value per radiance, as glint_eval_area. */
 void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value);
 bool shade_faces_area(const shade_point *p, const shade_area *area);
-/* Whether a round light around wi (world, unit) has to be seen as a shape: it stands astride a layer's horizon, or the
- * reflection changes over it. sine: of its angular radius. */
+/* About how much a round light around wi (world, unit), taken as if all of it came from its middle, is off: relative;
+ * infinite where it stands astride a layer's horizon. sine: of its angular radius. */
+double shade_cap_error(const shade_point *p, vec3 wi, double sine);
+/* From which on shade_see says that a light of some size has to be seen as a shape; and whether it does. */
+#define SHADE_CAP_ERROR 0.01
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine);
 /* A light of either kind at a point. */
 typedef struct shade_query {
@@ -87,6 +107,11 @@ typedef struct shade_query {
     shade_area area;
     glint_value value; /* out */
 } shade_query;
+
+static inline bool shade_is_area(const shade_query *q)
+{
+    return (EFFECT_FLAT_LIGHTS || EFFECT_ROUND_SHAPES) && q->is_area;
+}
 
 enum { SHADE_MOST_QUERIES = 256 };
 

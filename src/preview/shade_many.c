@@ -9,37 +9,31 @@
 /* A layer of a query's point. */
 typedef struct part {
     const shade_query *query;
-    int layer;
-    glint_value value;
+    const shade_layer *layer;
+    const glint_value *value; /* once it has been evaluated */
 } part;
 
 /* Parts of one kind as a structure of arrays. */
 typedef struct group {
-    part *parts[GROUP];
     int count;
     double u[GROUP], v[GROUP];
     float dudx[GROUP], dudy[GROUP], dvdx[GROUP], dvdy[GROUP], wo[3][GROUP], wi[3][GROUP], solid_angle_sr[GROUP];
     uint32_t seed[GROUP], draw[GROUP];
     glint_surface surfaces[GROUP];
     glint_area_light areas[GROUP];
-    glint_value values[GROUP];
 } group;
-
-static const shade_layer *layer_of(const part *p)
-{
-    return &p->query->point->layers[p->layer];
-}
 
 static bool are_of_one_kind(const part *a, const part *b)
 {
-    const shade_layer *const one = layer_of(a), *const other = layer_of(b);
-    return one->material == other->material && one->is_own == other->is_own && a->query->is_area == b->query->is_area;
+    return a->layer->material == b->layer->material && a->layer->is_own == b->layer->is_own &&
+           shade_is_area(a->query) == shade_is_area(b->query);
 }
 
-/* A layer that does not count has a model that reads no footprint: shade_prepare leaves it so. */
+/* A layer that does not count, by its model or after shade_widen, has none: the library takes numbers that are none so.
+ */
 static void set_footprint(group *g, int i, const shade_layer *layer)
 {
-    const glint_footprint none = { 0 };
+    static const glint_footprint none = { .dudx = INFINITY };
     const glint_footprint *const f = layer->counts ? &layer->footprint : &none;
     g->u[i] = f->u;
     g->v[i] = f->v;
@@ -51,18 +45,17 @@ static void set_footprint(group *g, int i, const shade_layer *layer)
     g->draw[i] = f->draw;
 }
 
-static void add(group *g, part *p)
+static void add(group *g, const part *p)
 {
-    const shade_layer *const layer = layer_of(p);
+    const shade_layer *const layer = p->layer;
     const int i = g->count++;
     float wi[3];
-    g->parts[i] = p;
     set_footprint(g, i, layer);
     if (!layer->is_own)
         g->surfaces[i] = layer->surface;
     for (int c = 0; c < 3; ++c)
         g->wo[c][i] = layer->wo[c];
-    if (p->query->is_area) {
+    if (shade_is_area(p->query)) {
         shade_area_to_local(layer, &p->query->area, &g->areas[i]);
         return;
     }
@@ -72,9 +65,9 @@ static void add(group *g, part *p)
     g->solid_angle_sr[i] = p->query->solid_angle_sr;
 }
 
-static void evaluate(group *g)
+/* first: any of the group. */
+static void evaluate(const group *g, const part *first, glint_value *values)
 {
-    const part *const first = g->parts[0];
     const glint_batch batch = { .size = sizeof batch,
                                 .count = (size_t)g->count,
                                 .u = g->u,
@@ -88,50 +81,75 @@ static void evaluate(group *g)
                                 .wo = { g->wo[0], g->wo[1], g->wo[2] },
                                 .wi = { g->wi[0], g->wi[1], g->wi[2] },
                                 .solid_angle_sr = g->solid_angle_sr,
-                                .surfaces = layer_of(first)->is_own ? NULL : g->surfaces,
-                                .area_lights = first->query->is_area ? g->areas : NULL,
-                                .values = g->values };
-    glint_eval_batch(layer_of(first)->material, &batch);
-    for (int i = 0; i < g->count; ++i)
-        g->parts[i]->value = g->values[i];
+                                .surfaces = first->layer->is_own ? NULL : g->surfaces,
+                                .area_lights = shade_is_area(first->query) ? g->areas : NULL,
+                                .values = values };
+    glint_eval_batch(first->layer->material, &batch);
 }
 
-/* Takes those of one kind out of the list, as many as fit, and leaves the others in their order. */
-static int take_group(part **list, int count, group *g)
+/* Takes those of the kind of the first out of the list, as many as fit, and leaves the others in their order. values:
+ * where theirs will be. */
+static int take_group(part **list, int count, group *g, const glint_value *values)
 {
     const part *const first = list[0];
     int left = 0;
     g->count = 0;
     for (int i = 0; i < count; ++i) {
-        if (g->count < GROUP && are_of_one_kind(first, list[i]))
-            add(g, list[i]);
-        else
-            list[left++] = list[i];
+        part *const p = list[i];
+        if (g->count < GROUP && are_of_one_kind(first, p)) {
+            p->value = &values[g->count];
+            add(g, p);
+        } else {
+            list[left++] = p;
+        }
     }
     return left;
+}
+
+static void evaluate_all(part **list, int count, glint_value *values)
+{
+    group g;
+    while (count > 0) {
+        const part *const first = list[0];
+        count = take_group(list, count, &g, values);
+        evaluate(&g, first, values);
+        values += g.count;
+    }
+}
+
+/* What its layers make of a query, the first of them at *p. */
+static void add_layers(shade_query *q, const part *p)
+{
+    const shade_point *const point = q->point;
+    const int layers = shade_layers(point);
+    if (layers == 1 && p->layer->weight == 1.0F) {
+        q->value = *p->value;
+        if (!p->layer->counts)
+            q->value.facet_count = q->value.lit_probability = 0.0F;
+        return;
+    }
+    const vec3 wi = shade_is_area(q) ? shade_towards_area(point, &q->area) : q->wi;
+    q->value = (glint_value){ 0 };
+    for (int k = 0; k < layers; ++k)
+        shade_add_layer(point, k, wi, p[k].value, &q->value);
 }
 
 void shade_eval_many(shade_query *const *queries, int count)
 {
     part parts[MOST_PARTS], *list[MOST_PARTS];
-    group g;
+    glint_value values[MOST_PARTS];
     int part_count = 0;
     for (int i = 0; i < count; ++i)
-        for (int k = 0; k < queries[i]->point->layer_count; ++k) {
-            list[part_count] = &parts[part_count];
-            parts[part_count].query = queries[i];
-            parts[part_count++].layer = k;
+        for (int k = 0; k < shade_layers(queries[i]->point); ++k) {
+            part *const p = &parts[part_count];
+            list[part_count++] = p;
+            p->query = queries[i];
+            p->layer = &queries[i]->point->layers[k];
         }
-    for (int left = part_count; left > 0;) {
-        left = take_group(list, left, &g);
-        evaluate(&g);
-    }
+    evaluate_all(list, part_count, values);
     const part *p = parts;
     for (int i = 0; i < count; ++i) {
-        shade_query *const q = queries[i];
-        const vec3 wi = q->is_area ? shade_towards_area(q->point, &q->area) : q->wi;
-        q->value = (glint_value){ 0 };
-        for (int k = 0; k < q->point->layer_count; ++k)
-            shade_add_layer(q->point, k, wi, &p++->value, &q->value);
+        add_layers(queries[i], p);
+        p += shade_layers(queries[i]->point);
     }
 }

@@ -6,8 +6,9 @@
 
 /* The local frame: z the normal, x as near to `along` as can be. */
 void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo);
-/* Footprints of the layers that count. */
-void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo, shade_point *out);
+/* The footprint of a layer, where it counts. */
+void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo,
+                        scene_glint_layer which, shade_layer *layer);
 
 /* What the library evaluates: NULL is the material's own surface, about which it knows more. */
 static inline const glint_surface *shade_surface(const shade_layer *layer)

@@ -94,7 +94,7 @@ void shader_close(shader *s)
 
 bool shade_wants_choice(const shader *s, const hit *h)
 {
-    return s->constants[h->mesh->material].wants_choice;
+    return EFFECT_FACET_PLANES && s->constants[h->mesh->material].wants_choice;
 }
 
 void shade_prepare(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
@@ -107,6 +107,8 @@ void shade_prepare_plain(const shader *s, const hit *h, const hit_step *step, ve
     const struct shade_constant *const c = &s->constants[h->mesh->material];
     const material_layers *const handles = &s->materials->layers[h->mesh->material];
     out->layer_count = 1;
+    out->counts = handles->base_counts;
+    out->draws = handles->draws;
     out->whole = handles->whole;
     out->occlusion = 1.0F;
     out->opacity = c->opacity;
@@ -122,5 +124,6 @@ void shade_prepare_plain(const shader *s, const hit *h, const hit_step *step, ve
     base->surface = c->surface;
     base->weight = 1.0F;
     shade_set_frame(base, h->normal, h->tangent, wo);
-    shade_place_glints(s, h, step, choice, wo, out);
+    if (EFFECT_FACETS && out->counts)
+        shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_BASE, base);
 }

@@ -11,7 +11,7 @@ static shade_surroundings surroundings_of(const world *w, const environment_ligh
 
 static void count_evaluation(const shade_point *p, const glint_value *value, ray_counts *counts)
 {
-    for (int i = 0; i < p->layer_count; ++i)
+    for (int i = 0; i < shade_layers(p); ++i)
         ++*(p->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals);
     if (value->over_limit) {
         ++counts->over_limit;
@@ -34,29 +34,83 @@ static void note_facets(direct_facets *facets, const glint_value *value)
         *facets = (direct_facets){ value->facet_count, value->lit_probability, 0.0F };
 }
 
-void add_surroundings(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                      const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+/* ---- one direction of the light's own: ask for a ray, and answer where it passes ---- */
+
+static void answer(const surroundings_query *q, const shade_point *p, const float throughput[3], radiance *sum,
+                   direct_facets *facets, ray_counts *counts)
+{
+    glint_value value;
+    shade_eval_surroundings(p, &q->from, &value);
+    count_evaluation(p, &value, counts);
+    add_value(sum, throughput, q->rgb, &value);
+    note_facets(facets, &value);
+}
+
+/* False: it brings nothing. */
+typedef bool asks(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                  surroundings_query *q, trace_ray *ray);
+
+static bool ask_environment(const world *w, const hit *h, const shade_point *p, const sampler *random,
+                            uint32_t dimension, surroundings_query *q, trace_ray *ray)
 {
     double u[2];
     environment_light from;
-    if (w->environment == NULL)
-        return;
     sampler_pair(random, dimension, u);
     if (!environment_sample(w->environment, u, &from) || !shade_faces(p, from.wi))
+        return false;
+    *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin),
+                        .direction = from.wi,
+                        .far = (double)INFINITY,
+                        .random = sampler_bits(random, dimension) };
+    q->from = surroundings_of(w, &from);
+    for (int c = 0; c < 3; ++c)
+        q->rgb[c] = from.rgb[c];
+    return true;
+}
+
+static void add_one(const world *w, asks *ask, const hit *h, const shade_point *p, const sampler *random,
+                    uint32_t dimension, const float throughput[3], radiance *sum, direct_facets *facets,
+                    ray_counts *counts)
+{
+    surroundings_query q;
+    trace_ray ray;
+    if (!ask(w, h, p, random, dimension, &q, &ray))
         return;
-    const trace_ray ray = { .origin = hit_leave(h, h->shadow_origin),
-                            .direction = from.wi,
-                            .far = (double)INFINITY,
-                            .random = sampler_bits(random, dimension) };
     ++counts->shadow_rays;
-    if (trace_occluded(w->trace, &ray))
-        return;
-    const shade_surroundings s = surroundings_of(w, &from);
-    glint_value value;
-    shade_eval_surroundings(p, &s, &value);
-    count_evaluation(p, &value, counts);
-    add_value(sum, throughput, from.rgb, &value);
-    note_facets(facets, &value);
+    if (!trace_occluded(w->trace, &ray))
+        answer(&q, p, throughput, sum, facets, counts);
+}
+
+static void add_many(const world *w, asks *ask, const direct_point *points, int count, uint32_t dimension,
+                     surroundings_scratch *s, ray_counts *counts)
+{
+    int asked = 0;
+    for (int i = 0; i < count; ++i) {
+        const direct_point *const p = &points[i];
+        if (ask(w, &p->vertex->hit, &p->vertex->point, p->random, dimension, &s->queries[asked], &s->rays[asked]))
+            s->queries[asked++].to = p;
+    }
+    counts->shadow_rays += (uint64_t)asked;
+    trace_occluded_many(w->trace, s->rays, asked, s->dark);
+    for (int i = 0; i < asked; ++i) {
+        const direct_point *const p = s->queries[i].to;
+        if (!s->dark[i])
+            answer(&s->queries[i], &p->vertex->point, p->throughput, p->light, p->facets, counts);
+    }
+}
+
+void add_surroundings(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                      const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+{
+    if (EFFECT_ENVIRONMENT && w->environment != NULL)
+        add_one(w, ask_environment, h, p, random, dimension, throughput, sum, facets, counts);
+}
+
+void add_surroundings_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
+                              surroundings_scratch *s, ray_counts *counts)
+{
+    if (EFFECT_ENVIRONMENT && w->environment != NULL)
+        add_many(w, ask_environment, points, count, dimension, s, counts);
 }
 
 void add_escaped_light(const world *w, const shade_point *p, const shade_direction *found, const float throughput[3],
@@ -91,34 +145,38 @@ static shade_surroundings glow_of(const world *w, const emitter_point *from, vec
                                  (float)(from->area_m2 / area_per_steradian), (float)(w->glint_side * w->glint_side) };
 }
 
-void add_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-              const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+static bool ask_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+                     surroundings_query *q, trace_ray *ray)
 {
     double u[2];
     emitter_point from;
-    if (w->emitters == NULL)
-        return;
     sampler_pair(random, dimension, u);
     emitters_sample(w->emitters, u, &from);
-    trace_ray ray = { .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
-    const vec3 towards = v3_sub(from.position, ray.origin);
+    *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
+    const vec3 towards = v3_sub(from.position, ray->origin);
     const double distance = v3_length(towards);
-    ray.direction = v3_normalize(towards);
-    ray.far = distance * (1.0 - SHORT_OF);
-    if (!(distance > 0.0) || (!from.two_sided && v3_dot(ray.direction, from.normal) >= 0.0) ||
-        !shade_faces(p, ray.direction))
-        return;
-    float emission[3];
-    glint_value value;
-    shade_emission(&w->shader, w->geometry, &from.at, emission);
-    ++counts->shadow_rays;
-    if (trace_occluded(w->trace, &ray))
-        return;
-    const shade_surroundings s = glow_of(w, &from, ray.direction, distance);
-    shade_eval_surroundings(p, &s, &value);
-    count_evaluation(p, &value, counts);
-    add_value(sum, throughput, emission, &value);
-    note_facets(facets, &value);
+    ray->direction = v3_normalize(towards);
+    ray->far = distance * (1.0 - SHORT_OF);
+    if (!(distance > 0.0) || (!from.two_sided && v3_dot(ray->direction, from.normal) >= 0.0) ||
+        !shade_faces(p, ray->direction))
+        return false;
+    shade_emission(&w->shader, w->geometry, &from.at, q->rgb);
+    q->from = glow_of(w, &from, ray->direction, distance);
+    return true;
+}
+
+void add_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
+              const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts)
+{
+    if (EFFECT_EMITTERS && w->emitters != NULL)
+        add_one(w, ask_glow, h, p, random, dimension, throughput, sum, facets, counts);
+}
+
+void add_glow_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
+                      surroundings_scratch *s, ray_counts *counts)
+{
+    if (EFFECT_EMITTERS && w->emitters != NULL)
+        add_many(w, ask_glow, points, count, dimension, s, counts);
 }
 
 bool add_found_glow(const world *w, const shade_point *p, const shade_direction *found, const trace_hit *at,

@@ -25,4 +25,28 @@ bool add_found_glow(const world *w, const shade_point *p, const shade_direction 
                     const hit *h, const float emission[3], const float throughput[3], radiance *sum,
                     ray_counts *counts);
 
+/* ---- the first and the third for many points, bit for bit ---- */
+
+enum { SURROUNDINGS_MOST = 64 };
+
+/* Light from one direction, which waits for its shadow ray. */
+typedef struct surroundings_query {
+    shade_surroundings from;
+    float rgb[3];
+    const direct_point *to;
+} surroundings_query;
+
+/* What the work on many points needs, made before the first of them. */
+typedef struct surroundings_scratch {
+    surroundings_query queries[SURROUNDINGS_MOST];
+    trace_ray rays[SURROUNDINGS_MOST];
+    bool dark[SURROUNDINGS_MOST];
+} surroundings_scratch;
+
+/* count: at most SURROUNDINGS_MOST. */
+void add_surroundings_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
+                              surroundings_scratch *s, ray_counts *counts);
+void add_glow_to_many(const world *w, const direct_point *points, int count, uint32_t dimension,
+                      surroundings_scratch *s, ray_counts *counts);
+
 #endif

@@ -38,11 +38,17 @@ bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending bl
 /* Whether anything lies between near and far. A single-sided surface throws its shadow from both sides. */
 bool trace_occluded(const trace_scene *t, const trace_ray *ray);
 
-/* The same two for rays that run side by side; bit i of the result is what they say of ray i. NULL: there is no such
- * ray. Of surfaces that coincide, another ray of the packet may decide which is hit; nothing else depends on them. */
+/* The same two for rays that run side by side, and with TRACE_BLEND_SOLID in much the same direction; bit i of the
+ * result is what they say of ray i. NULL: there is no such ray. Of surfaces that coincide, another ray of the packet
+ * may decide which is hit; nothing else depends on them. */
 enum { TRACE_PACKET = 16 };
 uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET], trace_blending blending,
                               trace_hit hits[TRACE_PACKET]);
 uint32_t trace_occluded_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET]);
+
+/* For any number of rays, in packets of neighbours. */
+void trace_closest_many(const trace_scene *t, const trace_ray *const *rays, int count, trace_blending blending,
+                        trace_hit *hits, bool *met);
+void trace_occluded_many(const trace_scene *t, const trace_ray *rays, int count, bool *dark);
 
 #endif

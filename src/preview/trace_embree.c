@@ -297,6 +297,10 @@ uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[
     _Alignas(64) int valid[TRACE_PACKET];
     struct RTCRayHit16 found;
     query q = make_query(t, rays, blending, false);
+    /* Rays of the camera: they go the same way through the tree. Shadow rays that are told so take more instructions.
+     */
+    if (blending == TRACE_BLEND_SOLID)
+        q.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if (!set_packet(rays, &found.ray, valid))
         return 0;
     for (int i = 0; i < TRACE_PACKET; ++i)
@@ -331,4 +335,35 @@ uint32_t trace_occluded_packet(const trace_scene *t, const trace_ray *const rays
         if (rays[i] != NULL && shadows.tfar[i] < 0.0F)
             occluded |= 1U << i;
     return occluded;
+}
+
+void trace_closest_many(const trace_scene *t, const trace_ray *const *rays, int count, trace_blending blending,
+                        trace_hit *hits, bool *met)
+{
+    for (int first = 0; first < count; first += TRACE_PACKET) {
+        const int size = count - first < TRACE_PACKET ? count - first : TRACE_PACKET;
+        const trace_ray *packet[TRACE_PACKET] = { NULL };
+        trace_hit found[TRACE_PACKET];
+        for (int i = 0; i < size; ++i)
+            packet[i] = rays[first + i];
+        const uint32_t any = trace_closest_packet(t, packet, blending, found);
+        for (int i = 0; i < size; ++i) {
+            met[first + i] = any >> i & 1U;
+            if (met[first + i])
+                hits[first + i] = found[i];
+        }
+    }
+}
+
+void trace_occluded_many(const trace_scene *t, const trace_ray *rays, int count, bool *dark)
+{
+    for (int first = 0; first < count; first += TRACE_PACKET) {
+        const int size = count - first < TRACE_PACKET ? count - first : TRACE_PACKET;
+        const trace_ray *packet[TRACE_PACKET] = { NULL };
+        for (int i = 0; i < size; ++i)
+            packet[i] = &rays[first + i];
+        const uint32_t any = trace_occluded_packet(t, packet);
+        for (int i = 0; i < size; ++i)
+            dark[first + i] = any >> i & 1U;
+    }
 }

@@ -1,8 +1,8 @@
-/* pays_nothing KIND RENDERER: renders a scene that uses no effect, for tests/plan/pays_nothing.sh to count
- * instructions.
+/* Renders a scene that uses no effect, for tests/plan/pays_nothing.sh to count the instructions of counted().
  *
- * KIND      smooth, flakes, unshadowed
- * RENDERER  whole: the previewer; bare: see bare.h; both: both, and an error where a pixel differs
+ * kind      smooth, flakes; or an effect, see effects.h
+ * renderer  whole: the previewer; bare: see bare.h; both: both, and an error where a pixel differs
+ *           print: the previewer, and a hash of what comes of it
  *           planned, smooth: the previewer from set-up to picture, with a budget; as --model auto and --model smooth
  */
 #include <stdio.h>
@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "bare.h"
+#include "effects.h"
 #include "preview/film.h"
 #include "preview/stage.h"
 #include "preview/tiles.h"
@@ -45,21 +46,49 @@ static preview_options plain_options(const scene_camera *from)
     return o;
 }
 
+/* What there is to count: one of the three. */
+typedef struct work {
+    const scene *s; /* from set-up to picture, with these options */
+    preview_options o;
+    const tiles_job *job; /* the picture alone */
+    const world *bare;    /* the same by the bare renderer */
+    image *film;
+    ray_counts *counts;
+} work;
+
+static __attribute__((noinline)) bool counted(const work *w, report *r)
+{
+    if (w->s != NULL)
+        return preview_render(w->s, &w->o, w->film, NULL, r);
+    if (w->job != NULL)
+        return tiles_render(w->job, w->counts, r);
+    bare_render(w->bare, w->film);
+    return true;
+}
+
 static int render_planned(const scene *s, preview_options o, int model, report *r)
 {
     image picture;
     o.model = model;
     o.accuracy = 0.02;
-    if (!preview_render(s, &o, &picture, NULL, r))
+    if (!counted(&(work){ .s = s, .o = o, .film = &picture }, r))
         return fail(r->error);
     image_free(&picture);
     return 0;
 }
 
-static int render_apart(const scene *s, const preview_options *o, const char *kind, const char *renderer, report *r)
+/* FNV-1a */
+static uint32_t hash_of(const void *bytes, size_t size, uint32_t hash)
 {
-    stage st;
-    view v;
+    for (size_t i = 0; i < size; ++i)
+        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 16777619U;
+    return hash;
+}
+
+static int render_apart(const scene *s, const preview_options *o, const char *renderer, report *r)
+{
+    static stage st;
+    static view v;
     image whole = { 0 }, bare = { 0 };
     preview_statistics unused;
     ray_counts counts = { 0 };
@@ -67,16 +96,17 @@ static int render_apart(const scene *s, const preview_options *o, const char *ki
     if (!stage_set_up(&st, s, o, &unused, r) || !view_set_up(&v, &st, o, r) || !film_of_options(o, &whole, r) ||
         !film_of_options(o, &bare, r))
         return fail(r->error);
-    for (int i = 0; i < v.world.light_count; ++i)
-        v.lights[i].unshadowed = strcmp(kind, "unshadowed") == 0;
     const tiles_job job = { .world = &v.world, .options = o, .samples = o->spp, .film = &whole };
     if (strcmp(renderer, "bare") != 0)
-        (void)tiles_render(&job, &counts, r);
-    if (strcmp(renderer, "whole") != 0)
-        bare_render(&v.world, &bare);
+        (void)counted(&(work){ .job = &job, .counts = &counts }, r);
+    if (both || strcmp(renderer, "bare") == 0)
+        (void)counted(&(work){ .bare = &v.world, .film = &bare }, r);
     const size_t size = (size_t)(o->width * o->height * bare.channel_count) * sizeof *bare.pixels;
     const bool same = !both || memcmp(whole.pixels, bare.pixels, size) == 0;
     const bool lit = !both || whole.pixels[(size_t)(o->width * o->height / 2 * whole.channel_count)] > 0.0F;
+    if (strcmp(renderer, "print") == 0)
+        printf("%08x\n",
+               hash_of(whole.pixels, size, hash_of(&counts.over_limit, sizeof counts.over_limit, 2166136261U)));
     image_free(&whole);
     image_free(&bare);
     view_take_down(&v);
@@ -84,22 +114,24 @@ static int render_apart(const scene *s, const preview_options *o, const char *ki
     return same && lit ? 0 : fail("the bare renderer makes other pixels, or black ones");
 }
 
-int main(int argc, char **argv)
+__attribute__((visibility("default"))) int pays_nothing(const char *kind, const char *renderer);
+
+int pays_nothing(const char *kind, const char *renderer)
 {
     static const float eye[3] = { 0.0F, 1.0F, 0.7F }, target[3] = { 0.0F, 0.0F, 0.0F };
     report r = { 0 };
-    if (argc != 3)
-        return fail("expected KIND and RENDERER");
     const scene_camera from = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, 0.12F);
-    const preview_options o = plain_options(&from);
-    scene s = plain_scene(argv[1]);
+    preview_options o = plain_options(&from);
+    scene s;
     int code;
-    if (strcmp(argv[2], "planned") == 0)
+    if (!effects_use(kind, &s, &o))
+        s = plain_scene(kind);
+    if (strcmp(renderer, "planned") == 0)
         code = render_planned(&s, o, PREVIEW_MODEL_AUTO, &r);
-    else if (strcmp(argv[2], "smooth") == 0)
+    else if (strcmp(renderer, "smooth") == 0)
         code = render_planned(&s, o, GLINT_MODEL_SMOOTH, &r);
     else
-        code = render_apart(&s, &o, argv[1], argv[2], &r);
+        code = render_apart(&s, &o, renderer, &r);
     scene_free(&s);
     return code;
 }

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "maps.h"
 #include "plan_cases.h"
 #include "preview/block.h"
 #include "preview/stage.h"
@@ -133,12 +134,34 @@ static void any_number_of_lights_is_seen_alike(void **state)
     scene_free(&s);
 }
 
+/* Light found in two ways: by rays that bounce, and by rays towards it. */
+static void what_glows_and_what_surrounds_is_seen_alike(void **state)
+{
+    (void)state;
+    scene s = layered_scene();
+    preview_options o = layered_options();
+    scene_material glowing = scenes_matte(0.5F);
+    float place[16];
+    glowing.emissive[0] = glowing.emissive[1] = 3.0F;
+    glowing.double_sided = true;
+    scenes_translation(place, -0.7F, 1.0F, 0.0F);
+    scenes_add_instance(&s, scenes_add_square(&s, scenes_add_material(&s, &glowing), 0.3F), place, 4);
+    environment_map map = maps_even(32, 0.1F);
+    maps_add_disc(&map, v3(0.3, 1.0, 0.2), 0.3, 4.0F);
+    const preview_environment around = maps_environment(&map);
+    o.environment = &around;
+    compare(&s, &o, "glow and surroundings");
+    environment_map_free(&map);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_block_has_the_samples_of_its_pixels),
         cmocka_unit_test(surfaces_one_behind_the_other_are_seen_alike),
         cmocka_unit_test(any_number_of_lights_is_seen_alike),
+        cmocka_unit_test(what_glows_and_what_surrounds_is_seen_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
