@@ -139,34 +139,31 @@ static void eval_point(const point *p, glint_value *value)
 
 /* ---- contract ---- */
 
-/* Each layer sees the light of real size in its own frame. What the coat lets through hardly changes over the light: it
- * is taken at the light's middle. */
-static void eval_area(const model_query *q, glint_value *value)
+/* Each layer sees the light of real size in its own frame; turned: that of the coat, whose place is to be kept. What
+ * the coat lets through hardly changes over the light: it is taken at the light's middle. */
+static void light_up_by_area(point *p, const glint_area_light *light, glint_area_light *turned)
 {
-    point p;
     area_light seen;
-    find_point(q, &p);
-    const glint_area_light turned = area_turn(q->area_light, p.x, p.y, p.z);
-    p.coat.area_light = &turned;
-    p.base_lit = p.base_seen;
-    p.coat_lit = p.coat_seen;
-    p.coat.wi = (vec3){ 0.0F, 0.0F, 1.0F };
-    if (area_see(&p.coat, &seen) && area_measure(&seen))
-        p.coat.wi = vec3d_narrow(seen.middle);
-    else if (area_see(&p.base, &seen) && area_measure(&seen))
-        p.coat.wi = to_coat(&p, vec3d_narrow(seen.middle));
-    eval_point(&p, value);
+    *turned = area_turn(light, p->x, p->y, p->z);
+    p->coat.area_light = turned;
+    p->base_lit = p->base_seen;
+    p->coat_lit = p->coat_seen;
+    p->coat.wi = (vec3){ 0.0F, 0.0F, 1.0F };
+    if (area_see(&p->coat, &seen) && area_measure(&seen))
+        p->coat.wi = vec3d_narrow(seen.middle);
+    else if (area_see(&p->base, &seen) && area_measure(&seen))
+        p->coat.wi = to_coat(p, vec3d_narrow(seen.middle));
 }
 
 static void layered_eval(const model_query *q, glint_value *value)
 {
-    if (q->area_light) {
-        eval_area(q, value);
-        return;
-    }
     point p;
+    glint_area_light turned;
     find_point(q, &p);
-    light_up(&p, q->wi);
+    if (q->area_light)
+        light_up_by_area(&p, q->area_light, &turned);
+    else
+        light_up(&p, q->wi);
     eval_point(&p, value);
 }
 
@@ -196,11 +193,15 @@ static void eval_gathered(gathered *g, glint_value value[CHUNK])
 static void eval_chunk(const model_query *q, size_t count, glint_value *value)
 {
     point p[CHUNK];
+    glint_area_light turned[CHUNK];
     gathered g = { .count = 0 };
     glint_value base[CHUNK] = { { { 0 }, { 0 }, 0, 0, 0 } }, coat[CHUNK] = { { { 0 }, { 0 }, 0, 0, 0 } };
     for (size_t i = 0; i < count; i++) {
         find_point(&q[i], &p[i]);
-        light_up(&p[i], q[i].wi);
+        if (q[i].area_light)
+            light_up_by_area(&p[i], q[i].area_light, &turned[i]);
+        else
+            light_up(&p[i], q[i].wi);
         if (p[i].base_lit)
             gather(&g, &p[i].base, i);
     }
@@ -215,12 +216,6 @@ static void eval_chunk(const model_query *q, size_t count, glint_value *value)
 
 static void layered_eval_many(const model_query *q, size_t count, glint_value *value)
 {
-    /* A batch has lights of one kind. */
-    if (count > 0 && q[0].area_light) {
-        for (size_t i = 0; i < count; i++)
-            eval_area(&q[i], &value[i]);
-        return;
-    }
     for (size_t i = 0; i < count; i += CHUNK)
         eval_chunk(q + i, count - i < CHUNK ? count - i : CHUNK, value + i);
 }

@@ -107,7 +107,7 @@ static void add_light(const world *w, light_query *q, const trace_ray *rays, con
                       direct_facets *facets, ray_counts *counts)
 {
     shade_query *const s = &q->shade;
-    bool dark[AREA_MOST_RAYS];
+    bool dark[AREA_MOST_RAYS] = { false };
     for (int i = 0; i < q->shadow.ray_count; ++i)
         dark[i] = trace_occluded(w->trace, &rays[i]);
     if (!is_lit(q, rays, dark))

@@ -5,6 +5,7 @@
 #include "traps.h"
 
 #include "exact_inputs.h"
+#include "model/area_kernel.h"
 #include "model/counting_kernel.h"
 #include "model/dictionary_kernel.h"
 #include "model/lobe_kernel.h"
@@ -191,6 +192,53 @@ static uint64_t hash_lobes(uint64_t hash, size_t lanes)
     return hash;
 }
 
+/* Entry i: a point under a light; every ninth has a number of any bits. */
+static void fill_lit_point(area_crowd *p, int i, uint64_t *random)
+{
+    float wo[3];
+    exact_direction(random, wo);
+    glint_area_light l = exact_light(random);
+    float *const numbers[] = { l.center, l.half_x + 1, l.half_y + 2, &l.radius, &l.solid_angle_sr };
+    const uint32_t bits = (uint32_t)random_bits(random);
+    if (i % 9 == 0)
+        memcpy(numbers[random_bits(random) % 5], &bits, sizeof(bits));
+    for (int k = 0; k < 3; k++) {
+        p->wo[k][i] = wo[k];
+        p->diffuse[k][i] = i % 2 ? 0.0F : (float)random_uniform(random);
+        p->f0[k][i] = (float)random_uniform(random);
+        p->f90[k][i] = 1.0F;
+        p->center[k][i] = l.center[k];
+        p->half_x[k][i] = l.half_x[k];
+        p->half_y[k][i] = l.half_y[k];
+    }
+    p->alpha_x[i] = ldexpf(1.0F, -(int)(random_bits(random) % 13));
+    p->alpha_y[i] = i % 2 ? p->alpha_x[i] : ldexpf(1.0F, -(int)(random_bits(random) % 13));
+    p->total_area[i] = i % 3 ? 0.0F : 1.25F;
+    p->hidden[i] = i % 4 ? 0.0F : (float)random_uniform(random);
+    p->kind[i] = (int32_t)l.kind;
+    p->two_sided[i] = i % 5 != 0;
+    p->size[i] = l.kind == GLINT_AREA_SPHERE ? l.radius : l.solid_angle_sr;
+}
+
+static uint64_t hash_lights(uint64_t hash, size_t lanes)
+{
+    static area_crowd p;
+    static lobe_lit lit;
+    uint64_t random = 55;
+    for (int round = 0; round < 24; round++) {
+        glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
+        float left[LOBE_MOST];
+        o.distribution = (glint_distribution)(round % 2);
+        o.fresnel = (glint_fresnel)(round / 2 % 3);
+        for (int i = 0; i < LOBE_MOST; i++)
+            fill_lit_point(&p, i, &random);
+        area_kernel_widest(lanes)(&o, &p, LOBE_MOST, 1, &lit, left);
+        hash = hash_floats(hash, left, LOBE_MOST);
+        hash = hash_floats(hash, (const float *)&lit, sizeof(lit) / sizeof(float));
+    }
+    return hash;
+}
+
 static uint64_t hash_dictionary(uint64_t hash, size_t lanes)
 {
     enum { CELLS = 400 };
@@ -247,7 +295,7 @@ static void print_kernels(void)
         w.tinted(&points, POINTS, &palette, factors, facets);
         for (int k = 0; k < 3; k++)
             hash = hash_floats(hash, factor[k], POINTS);
-        hash = hash_dictionary(hash_lobes(hash, lanes), lanes);
+        hash = hash_dictionary(hash_lights(hash_lobes(hash, lanes), lanes), lanes);
         printf("lanes %-6zu %016llx\n", lanes, (unsigned long long)hash);
     }
 }
