@@ -494,13 +494,23 @@ typedef struct glint_plan_light {
     uint32_t shadow_rays, blocked_rays;
 } glint_plan_light;
 
+/* Evaluations of a light as a shape. */
+typedef struct glint_plan_shape {
+    float seen;   /* per sample */
+    float part;   /* mean over all pixels of the square of this light's part of the pixel */
+    float sparks; /* and of the variance of its lit facets, light^2 / (N p), over the mean square of the picture's
+                     light, facets and all; 0 where no facets are counted */
+} glint_plan_shape;
+
+/* Sorted by what a cap in place of the shape would be off: entry k by no more than .01 2^k, the last by more than all.
+ */
+enum { GLINT_PLAN_SHAPES = 6 };
+
 /* One light on one material, over the picture. */
 typedef struct glint_plan_pair {
     uint32_t material, light;
-    float seen;                   /* evaluations per sample */
-    float part;                   /* mean over all pixels of the square of this light's part of the pixel */
-    float sparks;                 /* and of the variance of its lit facets, light^2 / (N p), over the mean square of the
-                                     picture's light, facets and all; 0 where no facets are counted */
+    float seen; /* evaluations per sample */
+    glint_plan_shape shapes[GLINT_PLAN_SHAPES];
     float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
                                      this light's part of the pixel; 0 where no facets are counted */
     float rate[GLINT_PLAN_BINS];  /* and how many evaluations per sample there are */
@@ -584,6 +594,7 @@ typedef struct glint_plan_outcome {
     float noise;             /* of the samples */
     float ns_per_sample;     /* of one core, by the table */
     uint32_t is_met;         /* error and noise together are within the budget */
+    float cap_error;         /* where a cap for a shape is off by no more it may stand for it; 0: nowhere */
     uint32_t bounces;        /* to be traced */
     uint32_t samples;        /* per pixel, to be taken */
     uint32_t enough_samples; /* per pixel, for the noise to be within what the error leaves; 0: no number is */

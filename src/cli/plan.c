@@ -43,6 +43,7 @@ document *plan_document(const glint_plan *plan, const scene *s)
     document_set_number(o, "ns_per_sample", (double)out.ns_per_sample);
     document_set_integer(o, "samples", out.samples);
     document_set_integer(o, "bounces", out.bounces);
+    document_set_number(o, "cap_error", (double)out.cap_error);
     for (uint32_t i = 0; i < glint_plan_decision_count(plan); ++i)
         document_append(list, decision_document(glint_plan_decision(plan, i), s));
     document_set(o, "decisions", list);

@@ -1,6 +1,5 @@
 /* OpenEXR files out, by the library of that name: the only file that includes it. */
 #include <exception>
-#include <memory>
 #include <new>
 #include <thread>
 
@@ -18,8 +17,8 @@
 namespace
 {
 
-/* Below this many samples threads take longer to start than the rest takes to be compressed (a few milliseconds). */
-constexpr size_t threads_pay = size_t{ 1 } << 18;
+/* From this many samples on several threads compress; fewer take one of them some milliseconds (taste). */
+constexpr size_t threads_pay = size_t{ 1 } << 16;
 
 /* Lets OpenEXR write through an output_file, which keeps the first error. */
 class output_stream : public Imf::OStream

@@ -48,15 +48,10 @@ static inline counting_pixel counting_pixel_of(const counting_points *points, si
     return (counting_pixel){ area * density, ellipse->area * density, area };
 }
 
-/* All that is known of points before their lights are: in items of one vector each. */
-#define COUNTING_ITEMS (3 + GRID_COUNT + 2 * GRID_COUNT * GRID_CELLS)
-
-typedef union counting_spot {
-    struct {
-        counting_pixel pixel;
-        grid_point grid;
-    };
-    vuint item[COUNTING_ITEMS];
+/* All that is known of points before their lights are: vectors of numbers and nothing else. */
+typedef struct counting_spot {
+    counting_pixel pixel;
+    grid_point grid;
 } counting_spot;
 
 /* Points are placed in blocks, one pass after another: what a pass computes for one vector is a single long chain, and
@@ -102,6 +97,13 @@ static inline size_t counting_place(const counting_points *points, size_t start,
     return entries / GLINT_LANES;
 }
 
+static inline vuint counting_vector_at(const counting_spot *spot, size_t byte)
+{
+    vuint v;
+    memcpy(&v, (const char *)spot + byte, sizeof(v));
+    return v;
+}
+
 /* The spots of the entries from i on, several of which may be at one point. They are in one vector of the block or in
  * two that follow each other. */
 static inline void counting_gather_spots(const counting_points *points, size_t i, const counting_block *b,
@@ -111,10 +113,13 @@ static inline void counting_gather_spots(const counting_points *points, size_t i
     const counting_spot *const from = &b->spot[k];
     const vint lane = (vint)(load_u(points->place + i) - (uint32_t)(b->first + GLINT_LANES * k));
     const vmask is_next = less_i(splat_i(GLINT_LANES - 1), lane);
-    for (int j = 0; j < COUNTING_ITEMS; j++)
-        to->item[j] = pick_u(from->item[j], lane);
-    for (int j = 0; any(is_next) && j < COUNTING_ITEMS; j++)
-        to->item[j] = choose_u(is_next, pick_u(from[1].item[j], lane), to->item[j]);
+    const int has_next = any(is_next);
+    for (size_t byte = 0; byte < sizeof(*to); byte += sizeof(vuint)) {
+        vuint picked = pick_u(counting_vector_at(from, byte), lane);
+        if (has_next)
+            picked = choose_u(is_next, pick_u(counting_vector_at(from + 1, byte), lane), picked);
+        memcpy((char *)to + byte, &picked, sizeof(picked));
+    }
 }
 
 /* Those of vector k of the block, whose first entry is i; *room: where they may be gathered. */

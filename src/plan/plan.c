@@ -114,8 +114,11 @@ static void check_pair(complaint *c, const glint_plan_summary *s, uint32_t index
         complain(c, GLINT_ERROR_RANGE, "pairs[%u].light is %u, expected less than %u", index, pair->light,
                  s->light_count);
     check(c, "pairs[].seen", pair->seen, 0.0F, 1e9F);
-    check(c, "pairs[].part", pair->part, 0.0F, 1e9F);
-    check(c, "pairs[].sparks", pair->sparks, 0.0F, 1e20F);
+    for (int i = 0; i < GLINT_PLAN_SHAPES; i++) {
+        check(c, "pairs[].shapes[].seen", pair->shapes[i].seen, 0.0F, 1e9F);
+        check(c, "pairs[].shapes[].part", pair->shapes[i].part, 0.0F, 1e9F);
+        check(c, "pairs[].shapes[].sparks", pair->shapes[i].sparks, 0.0F, 1e20F);
+    }
     for (int i = 0; i < GLINT_PLAN_BINS; i++) {
         check(c, "pairs[].share[]", pair->share[i], 0.0F, 1e9F);
         check(c, "pairs[].rate[]", pair->rate[i], 0.0F, 1e9F);
@@ -162,7 +165,7 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
 }
 
 /* What a material can say at most: its look-ups, colours, layers, anisotropy, textures, normal maps and alpha. */
-enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 2, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
+enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 3, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
 
 static glint_plan *make(const glint_plan_summary *s)
 {

@@ -28,6 +28,7 @@ struct glint_plan {
     plan_material *materials;
     uint32_t *first_pair, *pairs; /* indices of the summary's pairs, material by material; where each material begins */
     float *light_seen;            /* evaluations of each light per sample */
+    int caps;                     /* entries of a pair's shapes for which a cap may stand, 0: none */
     glint_decision *decisions;
     uint32_t count, capacity;
 };

@@ -1,9 +1,9 @@
-/* How the light of each shape is found on each material: by a fit where what that is off by fits the budget, by an
- * exact integral else.
+/* How the light of each shape is found on each material: as if all of it came from its middle or by a fit, where what
+ * that is off by fits the budget, and by an exact integral else.
  *
- * A fit that is off by an error e is off by e of the light. It also turns facets on and off: of the N p that are lit e
- * N p on average, each of which is 1 / (N p) of the light, so that it varies by e / (N p) more. Of few lit facets that
- * is far more than e^2.
+ * What is off by an error e is off by e of the light. It also turns facets on and off: of the N p that are lit e N p on
+ * average, each of which is 1 / (N p) of the light, so that it varies by e / (N p) more. Of few lit facets that is far
+ * more than e^2.
  */
 #include "plan/plan.h"
 
@@ -14,8 +14,6 @@ static const char *name_of(const glint_plan_light *l)
 {
     return l->name ? l->name : "a light";
 }
-
-/* ---- the fit ---- */
 
 static int is_shape(const glint_plan *p, const glint_plan_pair *pair)
 {
@@ -36,12 +34,56 @@ static double worse(const float errors[2], const glint_plan_material *m)
     return m->coat ? fmax(base, (double)errors[m->coat->distribution == GLINT_DISTRIBUTION_BECKMANN]) : base;
 }
 
+/* Of light that is off by an error, and of lit facets of which a share is turned on or off. */
+static double variance_of(const glint_plan_shape *s, double error, double flips)
+{
+    return error * error * (double)s->part + flips * (double)s->sparks;
+}
+
+/* What shapes come to that are no caps. */
+static glint_plan_shape left_to_fit(const glint_plan *p, const glint_plan_pair *pair)
+{
+    glint_plan_shape sum = { 0.0F, 0.0F, 0.0F };
+    for (int k = p->caps; k < GLINT_PLAN_SHAPES; k++) {
+        sum.seen += pair->shapes[k].seen;
+        sum.part += pair->shapes[k].part;
+        sum.sparks += pair->shapes[k].sparks;
+    }
+    return sum;
+}
+
 static double variance_of_fit(const glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_plan_material *const m = &p->summary.materials[pair->material];
-    const double error = worse(plan_ltc_errors, m);
-    return error * error * (double)pair->part + worse(plan_ltc_flips, m) * (double)pair->sparks;
+    const glint_plan_shape s = left_to_fit(p, pair);
+    return variance_of(&s, worse(plan_ltc_errors, m), worse(plan_ltc_flips, m));
 }
+
+/* ---- caps ---- */
+
+/* The most that the caps of an entry are off. */
+static double cap_error(int entry)
+{
+    return ldexp(0.01, entry);
+}
+
+/* A cap that is off by e in the light is off by no more in the facets that it lights. */
+static double variance_of_caps(const glint_plan *p, const glint_plan_pair *pair)
+{
+    double sum = 0.0;
+    for (int k = 0; k < p->caps; k++)
+        sum += variance_of(&pair->shapes[k], cap_error(k), cap_error(k));
+    return sum;
+}
+
+/* Round lights are caps in many places whatever the plan says; what is left by rounding is none. */
+static float seen_as_caps(const glint_plan *p, const glint_plan_pair *pair)
+{
+    const float seen = pair->seen - left_to_fit(p, pair).seen;
+    return seen > 1e-5F * pair->seen ? seen : 0.0F;
+}
+
+/* ---- the fit ---- */
 
 /* What the fit would add to the picture, material by material, and for how many evaluations. */
 static void add_up_fits(glint_plan *p)
@@ -51,7 +93,7 @@ static void add_up_fits(glint_plan *p)
         if (!is_shape(p, pair))
             continue;
         p->materials[pair->material].fit_variance += variance_of_fit(p, pair);
-        p->materials[pair->material].fit_evaluations += (double)pair->seen;
+        p->materials[pair->material].fit_evaluations += (double)left_to_fit(p, pair).seen;
     }
 }
 
@@ -77,6 +119,7 @@ static plan_material *best_for_fit(glint_plan *p, double most_variance)
 static void choose_methods(glint_plan *p)
 {
     double left = 0.75 * plan_left(p, 1) * plan_left(p, 1);
+    p->caps = 0;
     for (uint32_t i = 0; i < p->summary.material_count; i++)
         p->materials[i].method = GLINT_AREA_LIGHT_EXACT;
     add_up_fits(p);
@@ -86,22 +129,60 @@ static void choose_methods(glint_plan *p)
     }
 }
 
+/* ---- which caps ---- */
+
+/* As many entries as together take half of what the fits have left. */
+static void choose_caps(glint_plan *p)
+{
+    double most = plan_left(p, 1) * plan_left(p, 1);
+    for (uint32_t i = 0; i < p->summary.material_count; i++)
+        most -= p->materials[i].method == GLINT_AREA_LIGHT_FAST ? p->materials[i].fit_variance : 0.0;
+    for (p->caps = GLINT_PLAN_SHAPES - 1; p->caps > 0; p->caps--) {
+        double variance = 0.0;
+        float seen = 0.0F;
+        for (uint32_t i = 0; i < p->summary.pair_count; i++) {
+            variance += variance_of_caps(p, &p->summary.pairs[i]);
+            seen += p->summary.pairs[i].shapes[p->caps - 1].seen;
+        }
+        if (variance < 0.5 * most && seen > 0.0F)
+            break;
+    }
+    p->outcome.cap_error = p->caps > 0 ? (float)cap_error(p->caps - 1) : 0.0F;
+}
+
 /* ---- what is said ---- */
+
+static void decide_caps(glint_plan *p, const glint_plan_pair *pair)
+{
+    glint_decision d = {
+        GLINT_EFFECT_LIGHT, (int32_t)pair->material, (int32_t)pair->light, 1, "cap", "", 0.0F, 0.0F, 0.0F
+    };
+    const float seen = seen_as_caps(p, pair);
+    if (!(seen > 0.0F))
+        return;
+    d.ns_per_sample = seen * plan_costs[PLAN_COST_SMOOTH];
+    d.error = (float)sqrt(variance_of_caps(p, pair));
+    plan_decide(p, d, "the middle of %s stands for its shape where that is off by %.2g or less",
+                name_of(&p->summary.lights[pair->light]), p->caps > 0 ? cap_error(p->caps - 1) : cap_error(0));
+}
 
 static void decide_shape(glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_plan_material *const m = &p->summary.materials[pair->material];
     const char *const name = name_of(&p->summary.lights[pair->light]);
     const double error = sqrt(variance_of_fit(p, pair));
+    const float seen = left_to_fit(p, pair).seen;
     glint_decision d = {
         GLINT_EFFECT_LIGHT, (int32_t)pair->material, (int32_t)pair->light, 1, "quadrature", "", 0.0F, 0.0F, 0.0F
     };
-    d.ns_per_sample = pair->seen * plan_costs[PLAN_COST_QUADRATURE];
+    if (!(seen > 0.0F))
+        return;
+    d.ns_per_sample = seen * plan_costs[PLAN_COST_QUADRATURE];
     if (is_stretched(m)) {
         plan_decide(p, d, "%s shows its shape on a brushed surface, which no fit knows", name);
     } else if (p->materials[pair->material].method == GLINT_AREA_LIGHT_FAST) {
         snprintf(d.choice, sizeof(d.choice), "LTC");
-        d.ns_per_sample = pair->seen * plan_costs[PLAN_COST_LTC];
+        d.ns_per_sample = seen * plan_costs[PLAN_COST_LTC];
         d.error = (float)error;
         plan_decide(p, d, "the shape of %s by a fit: %.2g of a pixel, and of the facets that it turns on or off", name,
                     error);
@@ -144,11 +225,14 @@ static void decide_shadows(glint_plan *p, uint32_t index)
 void plan_lights(glint_plan *p)
 {
     choose_methods(p);
+    choose_caps(p);
     for (uint32_t i = 0; i < p->summary.light_count; i++)
         decide_light(p, i);
     for (uint32_t i = 0; i < p->summary.pair_count; i++)
-        if (is_shape(p, &p->summary.pairs[i]))
+        if (is_shape(p, &p->summary.pairs[i])) {
+            decide_caps(p, &p->summary.pairs[i]);
             decide_shape(p, &p->summary.pairs[i]);
+        }
     for (uint32_t i = 0; i < p->summary.light_count; i++)
         if (p->summary.lights[i].shadow_rays > 0)
             decide_shadows(p, i);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "preview/choose_lights.h"
+#include "preview/hash.h"
 
 /* The ray that a cap waits for, towards a place of the light. */
 static void aim(const world *w, const hit *h, const light *l, const light_view *view, const sampler *random,
@@ -66,15 +67,45 @@ static bool gather_light(const world *w, const hit *h, const shade_point *p, con
     else if (!gather_shape(h, random, dimension, thorough, q, rays))
         return false;
     counts->shadow_rays += (uint64_t)q->shadow.ray_count;
+    if (shade_is_area(&q->shade) && w->cap_error > 0.0)
+        q->draw = hash_uniform(hash_mix(sampler_bits(random, dimension)));
     return true;
 }
 
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap)
+{
+    if (light_is_area(l) ? !light_see_round(l, position, cap) : !light_see(l, position, cap) || !(cap->sine > 0.0))
+        return (double)INFINITY;
+    return shade_cap_error(p, cap->wi, cap->sine) + light_round_error(l, cap);
+}
+
+/* A shape that all of the point sees becomes a cap where the view allows that. Up to half of the error that may be all
+ * samples take the cap, beyond it ever fewer, so that no seam shows where shapes begin. */
+static void take_cap(const world *w, const hit *h, light_query *q)
+{
+    light_view cap;
+    if (q->shade.area.hidden > 0.0F)
+        return;
+    const double error = direct_cap_error(q->shadow.light, q->shade.point, h->position, &cap), most = w->cap_error;
+    if (!(error < most) || 2.0 * error > most * (1.0 + (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
+        return;
+    q->shade.is_area = false;
+    q->shade.wi = cap.wi;
+    q->shade.solid_angle_sr = cap.solid_angle_sr;
+    for (int c = 0; c < 3; ++c)
+        q->irradiance[c] = cap.irradiance[c];
+}
+
 /* dark: which of its rays met something. */
-static bool is_lit(light_query *q, const trace_ray *rays, const bool *dark)
+static bool is_lit(const world *w, const hit *h, light_query *q, const trace_ray *rays, const bool *dark)
 {
     if (!shade_is_area(&q->shade))
         return q->shadow.ray_count == 0 || !dark[0];
-    return area_shadow_end(&q->shadow, q->shade.point, rays, dark, &q->shade.area);
+    if (!area_shadow_end(&q->shadow, q->shade.point, rays, dark, &q->shade.area))
+        return false;
+    if (w->cap_error > 0.0)
+        take_cap(w, h, q);
+    return true;
 }
 
 static void count_evaluation(const shade_query *q, ray_counts *counts)
@@ -103,14 +134,14 @@ static void add_up(const light_query *q, const float throughput[3], radiance *su
 }
 
 /* One light at one point, from its ray to its sum. */
-static void add_light(const world *w, light_query *q, const trace_ray *rays, const float throughput[3], radiance *sum,
-                      direct_facets *facets, ray_counts *counts)
+static void add_light(const world *w, const hit *h, light_query *q, const trace_ray *rays, const float throughput[3],
+                      radiance *sum, direct_facets *facets, ray_counts *counts)
 {
     shade_query *const s = &q->shade;
-    bool dark[AREA_MOST_RAYS];
+    bool dark[AREA_MOST_RAYS] = { false };
     for (int i = 0; i < q->shadow.ray_count; ++i)
         dark[i] = trace_occluded(w->trace, &rays[i]);
-    if (!is_lit(q, rays, dark))
+    if (!is_lit(w, h, q, rays, dark))
         return;
     if (shade_is_area(s))
         shade_eval_area(s->point, &s->area, &s->value);
@@ -142,7 +173,7 @@ void add_direct_light(const world *w, const hit *h, const shade_point *p, const 
             continue;
         if (is_any)
             q.weight = 1.0F / chosen[i].probability;
-        add_light(w, &q, rays, throughput, sum, facets, counts);
+        add_light(w, h, &q, rays, throughput, sum, facets, counts);
     }
 }
 
@@ -185,12 +216,12 @@ static void gather_chosen(const world *w, const direct_point *points, int count,
 }
 
 /* Lists those that something is left of. */
-static int list_lit(direct_scratch *s)
+static int list_lit(const world *w, direct_scratch *s)
 {
     int count = 0;
     for (int i = 0; i < s->query_count; ++i) {
         light_query *const q = &s->queries[i];
-        if (!is_lit(q, &s->rays[q->first_ray], &s->dark[q->first_ray]))
+        if (!is_lit(w, &q->to->vertex->hit, q, &s->rays[q->first_ray], &s->dark[q->first_ray]))
             continue;
         s->shades[count] = &q->shade;
         s->lit[count++] = q;
@@ -208,7 +239,7 @@ static void add_some(const world *w, const direct_point *points, int count, uint
     else
         gather_all(w, points, count, dimension, s, counts);
     trace_occluded_many(w->trace, s->rays, s->ray_count, s->dark);
-    const int lit = list_lit(s);
+    const int lit = list_lit(w, s);
     shade_eval_many(s->shades, lit);
     for (int i = 0; i < lit; ++i) {
         const direct_point *const to = s->lit[i]->to;

@@ -15,6 +15,9 @@ typedef struct direct_facets {
 void add_direct_light(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
                       const float throughput[3], radiance *sum, direct_facets *facets, ray_counts *counts);
 
+/* About how much a light with a shape would be off as a cap, and the cap: relative, infinite where it cannot be one. */
+double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap);
+
 /* ---- many points at once ---- */
 
 /* One of them: see add_direct_light. */
@@ -34,6 +37,7 @@ typedef struct light_query {
     float weight;        /* how many lights it stands for */
     area_shadow shadow;  /* of a cap too: one ray */
     int first_ray;       /* that it waits for */
+    float draw;          /* where shapes may be caps: uniform in [0, 1) */
     const direct_point *to;
 } light_query;
 

@@ -34,6 +34,7 @@ typedef struct world {
      * blocks. */
     int glint_side;
     uint32_t seed;
+    double cap_error; /* so much may a light with a shape be off where it is taken as round and small; 0: nothing */
 } world;
 
 /* The same light twice: with single facets and without. */

@@ -48,6 +48,12 @@ double light_radiance_per_irradiance(const light_view *view);
 /* False when no light comes this way: behind a spot's cone or an area light, out of range, black. */
 bool light_see(const light *l, vec3 position, light_view *out);
 
+/* How a rectangle or a disk is seen that is so far away that it might as well be round: direction, solid angle, sine of
+ * the circle around it, irradiance. False: it shows its other side, or is too near for any of that. */
+bool light_see_round(const light *l, vec3 position, light_view *out);
+/* What that is off: cos / d^2 changes over a flat light. */
+double light_round_error(const light *l, const light_view *view);
+
 /* A point of a rectangle or a disk, even over its area. */
 vec3 light_point(const light *l, const double u[2]);
 double light_area_m2(const light *l);

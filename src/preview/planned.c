@@ -18,6 +18,7 @@ bool planned_make(planned *p, const preview_options *options, world *w, report *
     const glint_plan_outcome out = glint_plan_result(p->plan);
     world_take_samples(w, (int)out.samples, options->model);
     w->bounces = (int)out.bounces;
+    w->cap_error = (double)out.cap_error;
     if (w->bounces == 0)
         w->emitters = NULL;
     return made;

@@ -118,9 +118,7 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
  * is g^2 in the middle of a highlight and 2 g^2 / s^2 far from it. So a real sun is a shape in the highlight of a
  * lacquer, and a cap wherever else, at a third of the cost. A Beckmann lobe is off by half of that in its middle; by
  * more in its tail, but by less than that of what the middle is. */
-#define MOST_SPREAD 0.1 /* of g in the middle of a highlight: an error of a hundredth */
-
-static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
+static double cap_error(const shade_layer *layer, const float local[3], double sine)
 {
     const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
                         (double)local[2] + (double)layer->wo[2]);
@@ -131,8 +129,28 @@ static bool cap_is_off(const shade_layer *layer, const float local[3], double si
     const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
     const double g = sine / (2.0 * h_dot_wi * cosine * cosine * alpha), s2 = x * x + y * y;
     /* More than |2 s^2 - 1|, which vanishes where the next term does not. */
-    return g * g * (1.0 + 2.0 * s2) > MOST_SPREAD * MOST_SPREAD * (1.0 + s2) * (1.0 + s2);
+    return g * g * (1.0 + 2.0 * s2) / ((1.0 + s2) * (1.0 + s2));
 }
+
+double shade_cap_error(const shade_point *p, vec3 wi, double sine)
+{
+    double most = 0.0;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        float local[3];
+        shade_to_local(&p->layers[i], wi, local);
+        if (fabs((double)local[2]) < sine)
+            return (double)INFINITY;
+        most = fmax(most, cap_error(&p->layers[i], local, sine));
+    }
+    return most;
+}
+
+static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
+{
+    return cap_error(layer, local, sine) > SHADE_CAP_ERROR;
+}
+
+#define MOST_SPREAD 0.1 /* of g in the middle of a highlight: its square is SHADE_CAP_ERROR */
 
 /* Whether a light stands above the horizon and its cap is never off: with |wi + wo| = 2 h.wi at most 2, g is at most
  * 2 sine / (((wi + wo).n)^2 alpha), and the error is nowhere larger than for s = 0. cosine: wi.n. */

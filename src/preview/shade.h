@@ -92,7 +92,11 @@ typedef struct shade_area {
 /* The same three for it: value per radiance, as glint_eval_area. */
 void shade_eval_area(const shade_point *p, const shade_area *area, glint_value *value);
 bool shade_faces_area(const shade_point *p, const shade_area *area);
-/* Whether shade_see says that of a light of some size. */
+/* About how much a round light around wi (world, unit), taken as if all of it came from its middle, is off: relative;
+ * infinite where it stands astride a layer's horizon. sine: of its angular radius. */
+double shade_cap_error(const shade_point *p, vec3 wi, double sine);
+/* From which on shade_see says that a light of some size has to be seen as a shape; and whether it does. */
+#define SHADE_CAP_ERROR 0.01
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine);
 /* A light of either kind at a point. */
 typedef struct shade_query {

@@ -32,7 +32,8 @@ typedef struct tally {
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
-    double square, bounced, bounce_rays, sky_rays; /* square: of the light of pixels, without facets */
+    double square; /* of the light of pixels, and what facets add to that in the mean */
+    double bounced, bounce_rays, sky_rays;
 } tally;
 
 static double level(const float rgb[3])
@@ -106,12 +107,30 @@ static radiance look_at_light(const world *w, int index, bool shadowed, const ve
     return sum;
 }
 
-/* Where its shape is told, and how its light is found follows from that. */
-static bool is_shape(const world *w, int index, const vertex *v)
+/* In which entry of a pair's shapes an evaluation there belongs; negative: in none. */
+static int shape_of(const world *w, int index, const vertex *v)
 {
     light_view view;
-    return index < w->light_count && light_see(&w->lights[index], v->hit.position, &view) && view.sine > 0.0 &&
-           shade_tells_shape(&v->point, view.wi, view.sine);
+    if (index == w->light_count)
+        return -1;
+    const light *const l = &w->lights[index];
+    const double error = direct_cap_error(l, &v->point, v->hit.position, &view);
+    if (!light_is_area(l) && (!light_see(l, v->hit.position, &view) || !(view.sine > 0.0) || error <= SHADE_CAP_ERROR))
+        return -1;
+    int k = 0;
+    while (k < GLINT_PLAN_SHAPES - 1 && error > ldexp(SHADE_CAP_ERROR, k))
+        ++k;
+    return k;
+}
+
+static void note_shape(tally *t, int entry, glint_plan_pair *pair, float evals, double part, double sparks)
+{
+    if (entry < 0)
+        return;
+    t->out->lights[pair->light].kind = GLINT_PLAN_LIGHT_SHAPE;
+    pair->shapes[entry].seen += evals;
+    pair->shapes[entry].part += (float)part;
+    t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + entry] += sparks;
 }
 
 /* Of many lights a render chooses some, and we look at those: as often as it evaluates them, each for those that it
@@ -129,19 +148,18 @@ static void note_light(tally *t, int index, double probability, const vertex *v,
         to->shadow_rays += (uint32_t)counts.shadow_rays;
         to->blocked_rays += level(seen.smooth) < level(all.smooth);
     }
-    if (is_shape(w, index, v))
-        to->kind = GLINT_PLAN_LIGHT_SHAPE;
-    const double bright = level(seen.smooth), share = bright / pixel;
-    pair->seen += (float)(counts.glint_evals + counts.smooth_evals);
-    pair->part += (float)(share * share / probability);
-    if (!(facets.count > 0.0F))
-        return;
+    const double bright = level(seen.smooth), share = bright / pixel, part = share * share / probability;
     const double tiles = (double)w->glint_side * (double)w->glint_side;
     const double lit = (double)facets.count * tiles * (double)facets.lit_probability;
+    const double sparks = lit > 0.0 ? bright * bright / (lit * probability) : 0.0;
+    const float evals = (float)(counts.glint_evals + counts.smooth_evals);
+    t->square += sparks;
+    pair->seen += evals;
+    note_shape(t, shape_of(w, index, v), pair, evals, part, sparks);
+    if (!(facets.count > 0.0F))
+        return;
     const uint32_t bin = glint_plan_bin((float)lit);
-    if (lit > 0.0)
-        t->out->sparks[pair - t->out->pairs] += bright * bright / (lit * probability);
-    pair->share[bin] += (float)(share * share / probability);
+    pair->share[bin] += (float)part;
     pair->rate[bin] += (float)counts.glint_evals;
 }
 
@@ -211,17 +229,18 @@ static int compare_pairs(const void *a, const void *b)
 static void end_pairs(survey *s, const tally *t)
 {
     const float inverse = 1.0F / (float)t->pixels;
-    double square = t->square;
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < s->summary.pair_count; ++i)
-        square += s->sparks[i];
     for (uint32_t i = 0; i < s->summary.pair_count; ++i) {
         glint_plan_pair pair = s->pairs[i];
         if (!(pair.seen > 0.0F))
             continue;
         pair.seen *= inverse;
-        pair.part *= inverse;
-        pair.sparks = square > 0.0 ? (float)(s->sparks[i] / square) : 0.0F;
+        for (int k = 0; k < GLINT_PLAN_SHAPES; ++k) {
+            const double sparks = s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
+            pair.shapes[k].seen *= inverse;
+            pair.shapes[k].part *= inverse;
+            pair.shapes[k].sparks = t->square > 0.0 ? (float)(sparks / t->square) : 0.0F;
+        }
         for (int b = 0; b < GLINT_PLAN_BINS; ++b) {
             pair.share[b] *= inverse;
             pair.rate[b] *= inverse;

@@ -14,7 +14,7 @@ typedef struct survey {
     glint_plan_material *materials;
     glint_plan_light *lights; /* those of the world, then surroundings where there are any */
     glint_plan_pair *pairs;
-    double *sparks;    /* of each pair: sum over the pixels of light^2 / (N p) */
+    double *sparks;    /* of each pair's shapes: sum over the pixels of light^2 / (N p) */
     uint32_t *pair_of; /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
     survey_name *light_names;
 } survey;

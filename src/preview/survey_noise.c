@@ -52,8 +52,9 @@ static double mean_of(const pixel_sums *s)
     return 0.5 * (s->smooth[0] + s->smooth[1]);
 }
 
-/* Relative to the smooth light, as all errors of a plan are. Facets count once all tiles of a pixel are seen: before,
- * other samples show other facets. */
+/* Relative to the light of the pixel: to that of its facets where those flash, or a spark that is a little off would be
+ * many times the smooth light off. Facets count once all tiles of a pixel are seen: before, other samples show others.
+ */
 static level_moments variance_of(const pixel_sums *sums, int count, bool discrete)
 {
     level_moments m = { 0.0, 0.0 };
@@ -62,7 +63,8 @@ static level_moments variance_of(const pixel_sums *sums, int count, bool discret
         picture += mean_of(&sums[i]) / count;
     for (int i = 0; i < count; ++i) {
         const double *const sum = discrete ? sums[i].discrete : sums[i].smooth;
-        const double base = fmax(mean_of(&sums[i]), DARK * picture);
+        const double flash = discrete ? 0.5 * (sum[0] + sum[1]) : 0.0;
+        const double base = fmax(fmax(mean_of(&sums[i]), flash), DARK * picture);
         if (!(base > 0.0))
             continue;
         const double variance = 0.5 * (sum[0] - sum[1]) * (sum[0] - sum[1]) / (base * base);

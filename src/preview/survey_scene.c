@@ -82,7 +82,7 @@ bool survey_begin(survey *out, const world *w, const preview_options *o, int lig
     out->lights = calloc(lights, sizeof *out->lights);
     out->light_names = calloc(lights, sizeof *out->light_names);
     out->pairs = calloc(most_pairs, sizeof *out->pairs);
-    out->sparks = calloc(most_pairs, sizeof *out->sparks);
+    out->sparks = calloc(most_pairs * GLINT_PLAN_SHAPES, sizeof *out->sparks);
     out->pair_of = calloc(material_count * lights, sizeof *out->pair_of);
     if (out->options == NULL || out->materials == NULL || out->lights == NULL || out->light_names == NULL ||
         out->pairs == NULL || out->sparks == NULL || out->pair_of == NULL) {

@@ -212,8 +212,7 @@ static void fill_shape(small_scene *s, float lit_facets, float budget)
 {
     fill(s, lit_facets, 16);
     s->light.kind = GLINT_PLAN_LIGHT_SHAPE;
-    s->pair.part = 1.0F;
-    s->pair.sparks = 1.0F / lit_facets;
+    s->pair.shapes[GLINT_PLAN_SHAPES - 1] = (glint_plan_shape){ 1.0F, 1.0F, 1.0F / lit_facets };
     s->summary.error_budget = budget;
 }
 
@@ -253,13 +252,44 @@ static void fit_stands_for_a_shape_unless_it_turns_few_facets_on_and_off(void **
     /* The light of a lamp that brings a hundredth of the pixel. */
     fill_shape(&s, 1e5F, 1e-4F);
     assert_string_equal(way_to_light(&s, &few), "quadrature");
-    s.pair.part = 1e-4F;
-    s.pair.sparks *= 1e-4F;
+    s.pair.shapes[GLINT_PLAN_SHAPES - 1].part *= 1e-4F;
+    s.pair.shapes[GLINT_PLAN_SHAPES - 1].sparks *= 1e-4F;
     assert_string_equal(way_to_light(&s, &few), "LTC");
     /* No fit knows a brushed surface. */
     fill_shape(&s, 1e5F, 0.2F);
     s.options.surface.alpha_x *= 0.5F;
     assert_string_equal(way_to_light(&s, &few), "quadrature");
+}
+
+/* A quarter each of the evaluations are off by .01, .02, .04 and .08 as caps, e, and so many facets are lit that only
+ * e^2 counts: up to .04 that is (1 + 4 + 16) / 4 1e-4 of variance, up to .08 21.25e-4. Half of the budget's square is
+ * 12.5e-4 and 50e-4. Of five lit facets e / 5 counts besides: 6.25e-4, 17.25e-4, 41.25e-4, 102e-4 up to .01, .02 .04
+ * and .08. The fit takes next to nothing. */
+static void cap_stands_for_a_shape_where_the_budget_allows_it(void **state)
+{
+    (void)state;
+    static const struct {
+        float lit_facets, budget, cap_error;
+    } cases[] = {
+        { 1e6F, 0.05F, 0.04F }, { 1e6F, 0.1F, 0.08F }, { 1e6F, 0.005F, 0.0F },
+        { 0.1F, 0.1F, 0.0F },   { 1e6F, 0.0F, 0.0F },  { 5.0F, 0.1F, 0.04F },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        small_scene s;
+        fill_shape(&s, cases[i].lit_facets, cases[i].budget);
+        s.pair.shapes[GLINT_PLAN_SHAPES - 1] = (glint_plan_shape){ 0 };
+        for (int k = 0; k < 4; k++)
+            s.pair.shapes[k] = (glint_plan_shape){ 0.25F, 0.25F, 0.25F / cases[i].lit_facets };
+        glint_plan *plan = plan_of(&s);
+        const float found = glint_plan_result(plan).cap_error;
+        const glint_decision *const d = find(plan, GLINT_EFFECT_LIGHT);
+        if (!(fabsf(found - cases[i].cap_error) < 1e-6F))
+            fail_msg("%g lit facets, budget %g: caps up to %g, expected %g", (double)cases[i].lit_facets,
+                     (double)cases[i].budget, (double)found, (double)cases[i].cap_error);
+        assert_int_equal(strcmp(d->choice, "cap") == 0, found > 0.0F);
+        assert_true((double)d->error <= sqrt(0.5) * (double)cases[i].budget * (1.0 + 1e-6) || found == 0.0F);
+        glint_plan_destroy(plan);
+    }
 }
 
 static void nothing_is_left_out_without_a_budget(void **state)
@@ -312,8 +342,9 @@ static void errors_stay_within_the_budget(void **state)
         s.summary.bounced = (float)random_log_between(&random, 1e-6, 1.0);
         s.summary.noise = (float)random_log_between(&random, 1e-3, 10.0);
         s.light.kind = (glint_plan_light_kind)(random_bits(&random) % 3);
-        s.pair.part = (float)random_between(&random, 0.0, 1.0);
-        s.pair.sparks = (float)random_log_between(&random, 1e-9, 1e3);
+        for (int i = 0; i < GLINT_PLAN_SHAPES; i++)
+            s.pair.shapes[i] = (glint_plan_shape){ 1.0F / GLINT_PLAN_SHAPES, (float)random_between(&random, 0.0, 0.2),
+                                                   (float)random_log_between(&random, 1e-9, 1e3) };
         s.light.blocked_rays = random_bits(&random) % 2 ? 0U : 7U;
         s.light.shadow_rays = (uint32_t)random_log_between(&random, 7.0, 1e6);
         s.options.color_variation = random_bits(&random) % 2 ? 0.0F : 0.9F;
@@ -542,6 +573,7 @@ int main(void)
         cmocka_unit_test(fewest_samples_are_taken_whose_noise_is_within_the_budget),
         cmocka_unit_test(cheapest_number_of_samples_is_taken),
         cmocka_unit_test(fit_stands_for_a_shape_unless_it_turns_few_facets_on_and_off),
+        cmocka_unit_test(cap_stands_for_a_shape_where_the_budget_allows_it),
         cmocka_unit_test(nothing_is_left_out_without_a_budget),
         cmocka_unit_test(shadows_stay_whatever_a_survey_has_not_seen),
         cmocka_unit_test(errors_stay_within_the_budget),

@@ -38,6 +38,7 @@ static void what_is_left_out_stays_within_the_budget(void **state)
     (void)state;
     static const double budgets[] = { 0.02, 0.2 };
     static const int samples[] = { 4, 64 };
+    int caps = 0;
     for (int i = 0; i < plan_case_count(); ++i) {
         scene_camera camera;
         preview_options o;
@@ -55,12 +56,19 @@ static void what_is_left_out_stays_within_the_budget(void **state)
                 /* What was foreseen comes from a few hundred pixels: seldom too little, and then not by much. */
                 if (!(error <= FORESEEN * (double)foreseen.error + 1e-3))
                     fail_msg("%s: error %g, foreseen %g", plan_case_name(i), error, (double)foreseen.error);
+                /* A lamp of .06 m at .55 m is off by about .02 as a cap: too much for the one budget, not for the
+                 * other. */
+                if (strcmp(plan_case_name(i), "lamp") == 0) {
+                    assert_int_equal(foreseen.cap_error > 0.0F, budgets[j] > 0.1);
+                    caps += foreseen.cap_error > 0.0F;
+                }
                 image_free(&less);
             }
             image_free(&all);
         }
         scene_free(&s);
     }
+    assert_int_equal(caps, 2);
 }
 
 /* Against many samples of everything: error and noise together. */
@@ -96,8 +104,8 @@ static void budget_is_met_against_many_samples_or_the_plan_says_no(void **state)
 
 enum { TRUTH_SAMPLES = 128, FIRST_SMOOTH = 4 }; /* of each of two references; the channel smooth.R of a film with all */
 
-/* Over pixels, of squares relative to the smooth light, of dark ones to a tenth of the picture's mean, as the plan has
- * its noise. */
+/* Over pixels, of squares relative to the light with or without facets, whichever is more, of dark ones to a tenth of
+ * the picture's mean, as the plan has its noise. */
 typedef struct squares {
     double mean, deviation; /* deviation: of the mean */
 } squares;
@@ -121,7 +129,8 @@ static squares squares_of(const image *a, const image truth[2])
     for (int i = 0; i < count; ++i) {
         const double one = mean_of(&truth[0], i, 0), two = mean_of(&truth[1], i, 0);
         const double smooth = 0.5 * (mean_of(&truth[0], i, FIRST_SMOOTH) + mean_of(&truth[1], i, FIRST_SMOOTH));
-        const double e = (a ? mean_of(a, i, 0) - 0.5 * (one + two) : 0.5 * (one - two)) / fmax(smooth, 0.1 * picture);
+        const double base = fmax(fmax(smooth, 0.5 * (one + two)), 0.1 * picture);
+        const double e = (a ? mean_of(a, i, 0) - 0.5 * (one + two) : 0.5 * (one - two)) / base;
         s.mean += e * e / count;
         s.deviation += e * e * e * e / count;
     }
@@ -145,47 +154,55 @@ static double sigma_of(const squares *measured)
     return measured->deviation * sqrt(1.0 + 2.25);
 }
 
+/* Returns the samples that were chosen. */
+static uint32_t check_chosen(const char *name, const scene *s, const preview_options *o, double budget,
+                             const image truth[2])
+{
+    const double of_truth = squares_of(NULL, truth).mean;
+    image chosen = render(s, *o, budget, 0);
+    const glint_plan_outcome plan = foreseen;
+    image whole = render(s, *o, 0.0, (int)plan.samples);
+    const squares both = squares_of(&chosen, truth), noise = squares_of(&whole, truth);
+    const double found = sqrt(fmax(noise.mean - of_truth, 0.0)), told = (double)plan.noise;
+    printf("%-16s budget %.2f: %4u samples, off by %.4f; noise %.4f, foreseen %.4f, truth %.4f\n", name, budget,
+           plan.samples, sqrt(both.mean), found, told, sqrt(of_truth));
+    assert_true(plan.is_met && plan.samples >= 16);
+    const double over = (both.mean - of_truth - budget * budget) / fmax(sigma_of(&both), 1e-12);
+    if (!(over <= 4.0))
+        fail_msg("%s: off by %g, expected at most %g: %.1f sigmas", name, sqrt(both.mean), budget, over);
+    const double noisier = (found * found - told * told) / fmax(sigma_of(&noise), 1e-12);
+    const bool is_waste = 2 * plan.samples <= TRUTH_SAMPLES && told > 2.0 * found + 1e-3;
+    if (!(noisier <= 4.0) || is_waste)
+        fail_msg("%s: noise %g, foreseen %g: %.1f sigmas", name, found, told, noisier);
+    image_free(&whole);
+    image_free(&chosen);
+    return plan.samples;
+}
+
 /* Against many more samples of everything, and others: what is left out and the noise of as many samples as were chosen
  * are within the budget together, and the noise is what was foreseen; nowhere is twice as much foreseen, which would
  * take four times the samples: where so few are taken that the truth has four times as many. */
 static void chosen_samples_meet_the_budget_and_are_not_many_more(void **state)
 {
     (void)state;
-    static const double budgets[] = { 0.1, 0.02 };
-    int more = 0;
-    for (int i = 0; i < plan_case_count(); ++i) {
+    static const char *const names[] = { "some", "lamp", "shadow", "penumbra", "bounce" };
+    int more = 0, seen = 0;
+    for (int i = 0; i < plan_case_count() && seen < 5; ++i) {
         scene_camera camera;
         preview_options o;
+        if (strcmp(plan_case_name(i), names[seen]) != 0)
+            continue;
+        ++seen;
         scene s = plan_case(i, &camera, &o);
         image truth[2];
         make_truth(&s, o, truth);
-        const double of_truth = squares_of(NULL, truth).mean;
-        for (int k = 0; k < 2; ++k) {
-            image chosen = render(&s, o, budgets[k], 0);
-            const glint_plan_outcome plan = foreseen;
-            image whole = render(&s, o, 0.0, (int)plan.samples);
-            const squares both = squares_of(&chosen, truth), noise = squares_of(&whole, truth);
-            const double found = sqrt(fmax(noise.mean - of_truth, 0.0)), told = (double)plan.noise;
-            printf("%-16s budget %.2f: %4u samples, off by %.4f; noise %.4f, foreseen %.4f, truth %.4f\n",
-                   plan_case_name(i), budgets[k], plan.samples, sqrt(both.mean), found, told, sqrt(of_truth));
-            assert_true(plan.is_met && plan.samples >= 16);
-            const double over = (both.mean - of_truth - budgets[k] * budgets[k]) / fmax(sigma_of(&both), 1e-12);
-            if (!(over <= 4.0))
-                fail_msg("%s: off by %g, expected at most %g: %.1f sigmas", plan_case_name(i), sqrt(both.mean),
-                         budgets[k], over);
-            const double more_noise = (found * found - told * told) / fmax(sigma_of(&noise), 1e-12);
-            const bool is_waste = 2 * plan.samples <= TRUTH_SAMPLES && told > 2.0 * found + 1e-3;
-            if (!(more_noise <= 4.0) || is_waste)
-                fail_msg("%s: noise %g, foreseen %g: %.1f sigmas", plan_case_name(i), found, told, more_noise);
-            more += plan.samples > 16;
-            image_free(&whole);
-            image_free(&chosen);
-        }
+        more += check_chosen(plan_case_name(i), &s, &o, 0.1, truth) > 16;
+        more += check_chosen(plan_case_name(i), &s, &o, 0.02, truth) > 16;
         image_free(&truth[0]);
         image_free(&truth[1]);
         scene_free(&s);
     }
-    assert_true(more >= 3);
+    assert_true(seen == 5 && more >= 3);
 }
 
 /* ---- no budget ---- */

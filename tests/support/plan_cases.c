@@ -15,6 +15,7 @@ typedef struct plan_setting {
     int bounces;
     glint_model model; /* 0: as the material asks for */
     float density_variation;
+    float lamp_m; /* width of a rectangle; 0: a window of .3 x .2 m */
 } plan_setting;
 
 /* Lit facets of a pixel from hundredths to a million: half_size 0.1 m makes pixels of 8 mm. */
@@ -28,6 +29,7 @@ static const plan_setting settings[] = {
     { "coat", 0.7F, 3e9F, 0.1F, .coated = true, .light = SCENE_LIGHT_POINT },
     { "brushed", 0.6F, 1e9F, 0.1F, .stretched = true, .light = SCENE_LIGHT_POINT },
     { "window", 0.6F, 1e8F, 0.1F, .light = SCENE_LIGHT_RECT },
+    { "lamp", 0.6F, 1e8F, 0.1F, .light = SCENE_LIGHT_RECT, .lamp_m = 0.06F },
     { "shadow", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT },
     { "penumbra", 0.6F, 1e8F, 0.1F, .blocked = true, .light = SCENE_LIGHT_RECT },
     { "bounce", 0.7F, 1e9F, 0.1F, .blocked = true, .light = SCENE_LIGHT_POINT, .bounces = 1 },
@@ -74,8 +76,8 @@ static void add_light(const plan_setting *c, scene *s)
     l->radius_m = is_dictionary(c) ? 0.02F : 0.05F;
     if (c->light == SCENE_LIGHT_DIRECTIONAL)
         l->angular_diameter_rad = 0.1F;
-    l->width_m = 0.3F;
-    l->height_m = 0.2F;
+    l->width_m = c->lamp_m > 0.0F ? c->lamp_m : 0.3F;
+    l->height_m = l->width_m / 1.5F;
 }
 
 scene plan_case(int index, scene_camera *camera, preview_options *options)
