@@ -19,6 +19,6 @@ set label 1 "Choose libglint's own walk to a mean of 5: its mean is right, and a
     at screen 0.5, screen 0.03 center font ',10'
 set ylabel 'worst distance of the law (Kolmogorov)'
 set key off
-plot [8:120] [2e-4:10] for [k = 1:8] of('law_ks_front.csv', k) using 2:3:($3 > $4 ? $3 - $4 : 2e-4):($3 + $4) with yerrorbars \
+plot [8:120] [2e-5:10] for [k = 1:8] of('law_ks_front.csv', k) using 2:3:($3 - $4 > 2e-5 ? $3 - $4 : 2e-5):($3 + $4) with yerrorbars \
     linetype colour[k] linewidth 1 pointtype shape[k] pointsize (k == 5 ? 1.4 : 1)
 unset multiplot
