@@ -13,5 +13,5 @@ const float plan_costs[PLAN_COST_COUNT] = {
     [PLAN_COST_NORMAL_MAP] = 265.1F,   [PLAN_COST_ALPHA] = 176.1F,          [PLAN_COST_ANISOTROPY] = 4.2F,
 };
 
-const float plan_ltc_errors[2] = { 0.00035F, 0.0031F };
-const float plan_ltc_flips[2] = { 0.00029F, 0.0018F };
+const float plan_ltc_errors[2] = { 0.00035F, 0.003F };
+const float plan_ltc_flips[2] = { 0.00026F, 0.0015F };
