@@ -5,7 +5,7 @@ set bars 0.6
 set logscale y
 set xlabel '--accuracy'
 set bmargin at screen 0.16
-set ylabel 'left out, root mean square over the mean'
+set ylabel 'left out: root mean square, over that of the picture'
 set key bottom right Right noreverse
 set format y '%g'
 set ytics add ('nothing' 1e-5)
@@ -20,7 +20,7 @@ set label 1 "Choose .02 or more but for references: lights with a shape then cos
     at screen 0.5, screen 0.03 center font ',10'
 set ylabel 'time over that without a budget'
 set format y '%g'
-set key bottom left Left reverse
+unset key # the colours of the left half
 whole(name) = real(system(sprintf('grep "^%s,0," images_accuracy.csv | cut -d, -f3', name)))
 plot [0.0015:0.3] [0:*] for [k = 1:4] name = word('near-sparse far-dense area-lit layered', k) \
     sprintf('< grep "^%s,0\\.[0-9]" images_accuracy.csv', name) using 2:($3 / whole(name)) with linespoints linetype k title name
