@@ -6,7 +6,7 @@ set logscale y
 set xlabel '--accuracy'
 set bmargin at screen 0.16
 set ylabel 'left out, root mean square over the mean'
-set key top left Left reverse
+set key bottom right Right noreverse
 set format y '%g'
 set ytics add ('nothing' 1e-5)
 least(e) = e > 1e-5 ? e : 1e-5
@@ -16,7 +16,7 @@ plot [0.0015:0.3] [1e-5:0.5] x with lines linetype 7 dashtype 2 title 'the budge
 unset logscale y
 unset ytics
 set ytics nomirror textcolor rgb "#333333"
-set label 1 "Choose .02 or more but for references: lights with a shape then cost a fraction; below the line a budget holds." \
+set label 1 "Choose .02 or more but for references: lights with a shape then cost a fraction; .01 where every flake must be the very one." \
     at screen 0.5, screen 0.03 center font ',10'
 set ylabel 'time over that without a budget'
 set format y '%g'
