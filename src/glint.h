@@ -117,8 +117,10 @@ typedef struct glint_surface {
 
 /* How facets are integrated over a light of real size. */
 typedef enum glint_area_light_method {
-    GLINT_AREA_LIGHT_FAST = 0, /* linearly transformed cosines; where alpha_x and alpha_y differ, as exact */
-    GLINT_AREA_LIGHT_EXACT     /* adaptive quadrature, error below 1 % */
+    /* A few points of a light that is small beside the lobe; of others linearly transformed cosines, or, where alpha_x
+     * and alpha_y differ, as exact. */
+    GLINT_AREA_LIGHT_FAST = 0,
+    GLINT_AREA_LIGHT_EXACT /* adaptive quadrature, error below 1 % */
 } glint_area_light_method;
 
 /* The upper layer of a layered material at one point. */

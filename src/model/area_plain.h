@@ -142,8 +142,10 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
         plain_add_round(q, is_sphere, is_round & plain, inverse, p.middle, &p.u, &p.v);
 
     const vfloat u2 = dot_3(p.u, p.u), v2 = dot_3(p.v, p.v), facing = dot_3(cross_3(p.u, p.v), p.middle);
-    /* Seen at an angle, and not so small that its area has no digits. */
-    plain = plain & less(splat(1e-16F), u2) & less(splat(1e-16F), v2) & less(4e-4F * (u2 * v2), facing * facing);
+    /* Seen at an angle, neither so wide that plain_add_round does not know it nor so small that its area has no digits.
+     */
+    plain = plain & less(u2 + v2, one) & less(splat(1e-16F), u2) & less(splat(1e-16F), v2) &
+            less(4e-4F * (u2 * v2), facing * facing);
     const vfloat height = abs_f(p.u.z) + abs_f(p.v.z),
                  bend = plain_bend(l, p.middle, sqrt_f(max_f(u2, v2)), sqrt_f(u2 + v2), height);
     const vmask is_away = is_flat & equal_i(q->two_sided, splat_i(0)) & less(zero, facing);

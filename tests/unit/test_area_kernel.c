@@ -217,7 +217,10 @@ static void points_of_a_plain_light_are_its_integral(void **state)
     uint64_t random = 62;
     int count = 0;
     for (int i = 0; i < 1200; i++) {
-        const area_case c = area_case_of(&random, i % 2);
+        area_case c = area_case_of(&random, i % 2);
+        /* Below the horizon, which wide lights look over. */
+        if (i % 3 == 0)
+            c.light.center[2] = -c.light.center[2];
         glint_surface s = { .alpha_x = (float)c.lobe.alpha_x, .alpha_y = (float)c.lobe.alpha_y };
         for (int k = 0; k < 3; k++) {
             s.f0[k] = s.f90[k] = 1.0F;
