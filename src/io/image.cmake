@@ -25,3 +25,7 @@ target_link_options(io_image_objects INTERFACE -Wl,--as-needed)
 target_link_libraries(io_image_objects PUBLIC PkgConfig::OPENEXR PkgConfig::PNG INTERFACE ${CMAKE_DL_LIBS})
 # Nobody links the module; who may load it is built after it.
 set_target_properties(io_image_objects PROPERTIES INTERFACE_LINK_DEPENDS $<TARGET_FILE:glint_image>)
+if(GLINT_SANITIZE)
+  # Loaded from the start: LeakSanitizer dies of thread-local storage of libraries that come later ("Tracer caught signal 11").
+  target_link_libraries(io_image_objects INTERFACE -Wl,--push-state,--no-as-needed ${OIIO_LINK_LIBRARIES} -Wl,--pop-state)
+endif()

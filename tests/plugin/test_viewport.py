@@ -90,7 +90,7 @@ def script():
     path = os.path.join(folder(), "viewport.png")
     view = area("VIEW_3D")
     yield 0.5
-    shoot(path, view)
+    yield from shoot(path, view)
     shot = bpy.data.images.load(path)
     pixels = numpy.array(shot.pixels[:]).reshape(-1, 4)
     assert pixels[:, :3].std() > 0.05, "the window shows one colour"

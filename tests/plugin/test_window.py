@@ -73,7 +73,7 @@ def spheres_show_a_material(material, view):
         assert bpy.ops.ed.lib_id_generate_preview() == {"FINISHED"}
     yield from wait_for("the large sphere", lambda: max(previews()) > 100)
     yield 1.0
-    shoot(os.path.join(folder(), "slots.png"), view)
+    yield from shoot(os.path.join(folder(), "slots.png"), view)
     side = material.preview.image_size[0]
     picture = numpy.array(material.preview.image_pixels_float[:], numpy.float32).reshape(side, side, 4)
     ball = picture[side // 4 : 3 * side // 4, side // 4 : 3 * side // 4, :3].reshape(-1, 3)
@@ -159,10 +159,10 @@ def hooks_open_a_message():
 
     view = area("PROPERTIES")
     quiet, loud = (os.path.join(folder(), name + ".png") for name in ("quiet", "message"))
-    shoot(quiet, view)
+    yield from shoot(quiet, view)
     gltf._show("glTF, 'glitter': glints or lights are left out: found a horse, expected a number")
     yield 1.5
-    shoot(loud, view)
+    yield from shoot(loud, view)
     changed = numpy.abs(pixels_of(loud) - pixels_of(quiet)).max(axis=-1) > 0.05
     rows, columns = changed.any(axis=1).sum(), changed.any(axis=0).sum()
     assert rows > 30 and columns > 300, f"a message of {columns} x {rows} pixels"

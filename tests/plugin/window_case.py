@@ -28,9 +28,17 @@ def override(of):
 
 
 def shoot(path, of):
-    """A picture of the window with this area in it."""
-    with bpy.context.temp_override(window=window(), area=of):
-        bpy.ops.screen.screenshot(filepath=path)
+    """A picture of the window with this area in it, as soon as no engine renders: meanwhile Blender lets no operator run."""
+    end = time.monotonic() + GIVE_UP_S
+    while True:
+        try:
+            with bpy.context.temp_override(window=window(), area=of):
+                bpy.ops.screen.screenshot(filepath=path)
+            break
+        except RuntimeError as refusal:
+            if "drawing/rendering" not in str(refusal) or time.monotonic() > end:
+                raise
+        yield 0.1
     assert os.path.getsize(path) > 2000, path
 
 
