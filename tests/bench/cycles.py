@@ -139,11 +139,15 @@ def seconds_at(levels_of, wanted):
     return samples * levels_of["seconds_per_sample"], samples <= rows[-1]["samples"]
 
 
-def measured_seconds(levels_of, wanted):
-    """Seconds of the least number of samples that was measured and is good enough: between 4 and 16 libglint's pictures change their
-    facets, so that nothing lies between. None: there is none."""
-    enough = [r["samples"] for r in levels_of["rows"] if r["error"] <= wanted]
-    return enough[0] * levels_of["seconds_per_sample"] if enough else None
+def our_seconds_at(levels_of, wanted):
+    """The same of libglint's pictures, which show the same facets from 16 samples on: below that nothing lies between two of them.
+    None: the error was not reached."""
+    rows = levels_of["rows"]
+    enough = next((i for i, r in enumerate(rows) if r["error"] <= wanted), None)
+    if enough is None:
+        return None
+    is_between = enough > 0 and rows[enough - 1]["samples"] >= 16
+    return (samples_for(rows, wanted) if is_between else rows[enough]["samples"]) * levels_of["seconds_per_sample"]
 
 
 def compare(glint, folder, shape, light, cells, truth_samples):
@@ -161,7 +165,7 @@ def compare(glint, folder, shape, light, cells, truth_samples):
     rows = []
     for wanted in LEVELS:
         their_s, theirs_measured = seconds_at(theirs, wanted)
-        our_s = measured_seconds(our, wanted)
+        our_s = our_seconds_at(our, wanted)
         if our_s is not None:
             rows.append({"error": wanted, "cycles_s": their_s, "ours_s": our_s, "cycles_measured": theirs_measured,
                          "faster": their_s / our_s,
