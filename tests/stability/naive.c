@@ -2,7 +2,6 @@
 #include "naive.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 static void number(char *text, size_t size, double x)
 {
@@ -24,17 +23,6 @@ void naive_print(const naive_row *row)
     number(number_of[2], sizeof(number_of[2]), row->ours);
     printf("| %s | %s | **%s** | %s | %s | %s | %s | `%s` |\n", row->what, row->formula, number_of[0], number_of[1],
            number_of[2], row->done, row->bound, row->test);
-}
-
-glint_material *naive_material(const glint_material_options *o)
-{
-    glint_material *m = NULL;
-    char message[256];
-    if (glint_material_create(o, &m, message, sizeof(message)) != GLINT_OK) {
-        fprintf(stderr, "glint_material_create: %s\n", message);
-        exit(1);
-    }
-    return m;
 }
 
 static void section(const char *title, void (*rows)(void))

@@ -3,7 +3,7 @@
 #ifndef TESTS_NAIVE_H
 #define TESTS_NAIVE_H
 
-#include "glint.h"
+#include "material_or_exit.h"
 #include "wide.h"
 
 /* What the optimiser may not compute at a higher precision, or not at all. */
@@ -27,9 +27,6 @@ typedef struct naive_row {
 
 /* Prints it as Markdown. */
 void naive_print(const naive_row *row);
-
-/* A material of the library, or the end of the program. */
-glint_material *naive_material(const glint_material_options *o);
 
 void naive_facets(void);
 void naive_counts(void);

@@ -51,7 +51,7 @@ static double pixel_over_smooth(float density, const glint_footprint *at)
 {
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.surface.facets_per_m2 = density;
-    glint_material *const m = naive_material(&o);
+    glint_material *const m = material_or_exit(&o);
     const float wo[3] = { 0.0F, 0.6F, 0.8F }, wi[3] = { 0.0F, -0.6F, 0.8F };
     const glint_light light = { GLINT_LIGHT_CAP, 1e-4F };
     glint_value v;

@@ -109,7 +109,7 @@ static glint_value reflected(float alpha, const float wo[3], const float wi[3], 
 {
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.surface.alpha_x = o.surface.alpha_y = alpha;
-    glint_material *const m = naive_material(&o);
+    glint_material *const m = material_or_exit(&o);
     const glint_footprint at = { .dudx = 1e-3F, .dvdy = 1e-3F };
     const glint_light light = { GLINT_LIGHT_CAP, solid_angle };
     glint_value v;

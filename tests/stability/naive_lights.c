@@ -200,7 +200,7 @@ static void all_around(void)
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.surface.alpha_x = o.surface.alpha_y = alpha;
     o.area_light_method = GLINT_AREA_LIGHT_EXACT;
-    glint_material *const m = naive_material(&o);
+    glint_material *const m = material_or_exit(&o);
     const glint_area_light sky = { .kind = GLINT_AREA_SUN, .solid_angle_sr = whole, .center = { 0.0F, 0.0F, 1.0F } };
     const glint_footprint at = { .dudx = 1e-3F, .dvdy = 1e-3F };
     const float wo[3] = { 0.0F, 0.0F, 1.0F };

@@ -175,7 +175,7 @@ static void overlaps_of(const setting *s, facet_filter filter, int k, double *co
 static void measure(const setting *s, facet_filter filter, int blocks, uint64_t *random, ratio out[SIZES])
 {
     const glint_material_options o = options_of(s);
-    glint_material *m = study_material(&o);
+    glint_material *m = material_or_exit(&o);
     const int split = split_of(filter);
     float wo[3], wi[3];
     directions_of(s, wo, wi);

@@ -70,7 +70,7 @@ int main(int argc, char **argv)
         o.model = c->model;
         o.distribution = c->distribution;
         o.surface.alpha_x = o.surface.alpha_y = 0.4F;
-        glint_material *m = study_material(&o);
+        glint_material *m = material_or_exit(&o);
         double last = HUGE_VAL;
         for (double n = 1.0; n <= c->most_facets; n *= 10.0) {
             /* Four million facets are enough of the explicit ones for a short look. */

@@ -47,7 +47,7 @@ static void furnace(const setting *s, uint64_t *random, double sum[VIEWS])
     o.surface.alpha_x = o.surface.alpha_y = s->alpha;
     o.surface.facets_per_m2 = s->facets * 1e6F;
     o.density_variation = s->density_variation;
-    glint_material *m = study_material(&o);
+    glint_material *m = material_or_exit(&o);
     const glint_footprint f = {
         random_between(random, -1.0, 1.0), random_between(random, -1.0, 1.0), 1e-3F, 0.0F, 0.0F, 1e-3F, 0U
     };

@@ -44,7 +44,7 @@ static double *draw(const study *s, glint_model model, double facets, int count,
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.model = model;
     o.surface.alpha_x = o.surface.alpha_y = 0.4F;
-    glint_material *m = study_material(&o);
+    glint_material *m = material_or_exit(&o);
     glint_surface surface = glint_material_surface(m);
     surface.facets_per_m2 = (float)(facets * 1e6);
     double *values = malloc((size_t)count * sizeof(*values));

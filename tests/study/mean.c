@@ -68,7 +68,7 @@ static moments mean_over_seeds(const setting *s, double facets, double *p, uint6
     o.surface.alpha_x = s->alpha_x;
     o.surface.alpha_y = s->alpha_y;
     o.surface.facets_per_m2 = (float)(facets * 1e6);
-    glint_material *m = study_material(&o);
+    glint_material *m = material_or_exit(&o);
     const double tilt = s->tilt * PI / 180.0;
     float wo[3], wi[3];
     direction(tilt, 0.4, wo);

@@ -141,7 +141,7 @@ static double busiest(const changes *c, int seeds)
 static changes changes_of(glint_model model, motion which, int seeds, double variance[SIZES][FRAMES])
 {
     const glint_material_options o = options_of(model);
-    glint_material *m = study_material(&o);
+    glint_material *m = material_or_exit(&o);
     changes c = { .frame = { 0.0 } };
     for (int i = 0; i < seeds; i++)
         add_changes(film_of(m, which, (uint32_t)i + 1U), variance, &c);
@@ -208,7 +208,7 @@ static void show(const study *s)
     static double pixels[SHOWN_SIDE * SHOWN_SIDE];
     for (int row = 0; row < 2 * MOTIONS; row++) {
         const glint_material_options o = options_of(WHICH[row % 2]);
-        glint_material *m = study_material(&o);
+        glint_material *m = material_or_exit(&o);
         for (int i = 0; i < SHOWN; i++) {
             const view v = view_of((motion)(row / 2), i * (FRAMES - 1) / (SHOWN - 1), 1U);
             render(m, &v, SHOWN_SIDE, pixels);

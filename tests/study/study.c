@@ -76,14 +76,3 @@ int study_end(const study *s)
     printf("%d bounds, %d do not hold\n", s->checks, s->failed);
     return s->failed != 0;
 }
-
-glint_material *study_material(const glint_material_options *o)
-{
-    glint_material *m = NULL;
-    char message[256];
-    if (glint_material_create(o, &m, message, sizeof(message)) != GLINT_OK) {
-        fprintf(stderr, "glint_material_create: %s\n", message);
-        exit(1);
-    }
-    return m;
-}

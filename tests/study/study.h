@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-#include "glint.h"
+#include "material_or_exit.h"
 
 typedef struct study {
     const char *folder;
@@ -29,8 +29,5 @@ void study_close(FILE *file);
 void study_check(study *s, int holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* The exit code. */
 int study_end(const study *s);
-
-/* glint_material_create, or the end of the program. */
-glint_material *study_material(const glint_material_options *o);
 
 #endif
