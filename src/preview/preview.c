@@ -115,6 +115,14 @@ static bool is_blended(const scene *s)
     return false;
 }
 
+static bool has_coats(const stage *st)
+{
+    for (int i = 0; i < st->scene->material_count; ++i)
+        if (st->materials.layers[i].coat != NULL)
+            return true;
+    return false;
+}
+
 static void set_sky(world *w, const stage *st, const preview_options *o)
 {
     w->has_sky = o->sky != NULL || wants_rig(st, o) || w->environment != NULL;
@@ -163,12 +171,14 @@ static scene_camera chosen_camera(const scene *s, const preview_options *o)
 bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
 {
     const scene_camera from_where = chosen_camera(st->scene, o);
-    *v = (view){ .world = { .geometry = &st->geometry,
+    *v = (view){ .world = { .kernels = kernels_of_machine(KERNELS_WIDEST),
+                            .geometry = &st->geometry,
                             .trace = st->trace,
                             .camera = &v->camera,
                             .shader = st->shader,
                             .environment = st->has_environment ? &st->environment : NULL,
                             .is_blended = is_blended(st->scene),
+                            .has_coats = has_coats(st),
                             .bounces = o->bounces,
                             .seed = o->seed } };
     world_take_samples(&v->world, o->spp > 0 ? o->spp : SAMPLES_TO_PLAN, o->model);

@@ -1,16 +1,11 @@
 /* How the layers of a prepared point scatter light: evaluation and sampling of their sum, and what a cone sees of them.
  */
+#define WIDE_LANES 1
 #include "preview/shade_parts.h"
+#include "preview/sight_lanes.h"
 
 /* How far above the horizon of a coat the middle of a light is taken to be at least: sin of about a degree. Taste. */
 #define LOWEST 0.02
-
-void shade_to_local(const shade_layer *layer, vec3 world, float local[3])
-{
-    local[0] = (float)v3_dot(world, layer->x);
-    local[1] = (float)v3_dot(world, layer->y);
-    local[2] = (float)v3_dot(world, layer->z);
-}
 
 static vec3 to_world(const shade_layer *layer, const float local[3])
 {
@@ -112,95 +107,38 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 
 /* ---- lights as shapes ---- */
 
-/* A cap takes the distribution as even over the half vectors that light the viewer. Their slopes over the roughness
- * spread by g = sine / (2 h.wi (n.h)^2 alpha) around s, and the mean of a distribution over a disk of that radius
- * differs by g^2 / 8 of its Laplacian: of GGX, D = 1 / (1 + s^2)^2, by g^2 |2 s^2 - 1| / (1 + s^2)^2 of itself, which
- * is g^2 in the middle of a highlight and 2 g^2 / s^2 far from it. So a real sun is a shape in the highlight of a
- * lacquer, and a cap wherever else, at a third of the cost. A Beckmann lobe is off by half of that in its middle; by
- * more in its tail, but by less than that of what the middle is. */
-static double cap_error(const shade_layer *layer, const float local[3], double sine)
+static wide_layer wide_layer_of(const shade_layer *l)
 {
-    const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
-                        (double)local[2] + (double)layer->wo[2]);
-    const double length = fmax(v3_length(sum), 2e-3), h_dot_wi = 0.5 * length;
-    const double cosine = fmax(sum.z / length, 1e-3);
-    const double x = sum.x / (length * cosine * (double)layer->surface.alpha_x);
-    const double y = sum.y / (length * cosine * (double)layer->surface.alpha_y);
-    const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
-    const double g = sine / (2.0 * h_dot_wi * cosine * cosine * alpha), s2 = x * x + y * y;
-    /* More than |2 s^2 - 1|, which vanishes where the next term does not. */
-    return g * g * (1.0 + 2.0 * s2) / ((1.0 + s2) * (1.0 + s2));
+    return (wide_layer){ .x = w3_splat(l->x),
+                         .y = w3_splat(l->y),
+                         .z = w3_splat(l->z),
+                         .wo = { (double)l->wo[0], (double)l->wo[1], (double)l->wo[2] },
+                         .alpha_x = (double)l->surface.alpha_x,
+                         .alpha_y = (double)l->surface.alpha_y };
 }
 
 double shade_cap_error(const shade_point *p, vec3 wi, double sine)
 {
     double most = 0.0;
     for (int i = 0; i < shade_layers(p); ++i) {
-        float local[3];
-        shade_to_local(&p->layers[i], wi, local);
-        if (fabs((double)local[2]) < sine)
+        const wide_layer layer = wide_layer_of(&p->layers[i]);
+        double local[3];
+        to_local(&layer, w3_splat(wi), local);
+        if (fabs(local[2]) < sine)
             return (double)INFINITY;
-        most = fmax(most, cap_error(&p->layers[i], local, sine));
+        most = fmax(most, cap_error(&layer, local, sine));
     }
     return most;
 }
 
-static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
-{
-    return cap_error(layer, local, sine) > SHADE_CAP_ERROR;
-}
-
-#define MOST_SPREAD 0.1 /* of g in the middle of a highlight: its square is SHADE_CAP_ERROR */
-
-/* Whether a light stands above the horizon and its cap is never off: with |wi + wo| = 2 h.wi at most 2, g is at most
- * 2 sine / (((wi + wo).n)^2 alpha), and the error is nowhere larger than for s = 0. cosine: wi.n. */
-static inline bool is_surely_cap(const shade_layer *layer, double cosine, double sine)
-{
-    const float alpha_x = layer->surface.alpha_x, alpha_y = layer->surface.alpha_y;
-    const float alpha = alpha_x < alpha_y ? alpha_x : alpha_y;
-    const double sum = cosine + (double)layer->wo[2];
-    return layer->wo[2] > 0.0F && cosine > sine && sine <= 0.5 * MOST_SPREAD * (double)alpha * (sum * sum);
-}
-
-static bool is_lit(const shade_layer *layer, double cosine)
-{
-    return layer->wo[2] > 0.0F && cosine > 0.0;
-}
-
-/* Few lights ask, and the others shall not pay for its registers. */
-static __attribute__((noinline)) shade_sight see_exactly(const shade_point *p, const vec3 *wi, double sine)
-{
-    shade_sight sight = SHADE_UNSEEN;
-    for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const double cosine = v3_dot(*wi, layer->z);
-        float local[3];
-        shade_to_local(layer, *wi, local);
-        if (fabs(cosine) < sine || cap_is_off(layer, local, sine))
-            return SHADE_SHAPE;
-        if (is_lit(layer, cosine))
-            sight = SHADE_CAP;
-    }
-    return sight;
-}
-
-shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine)
-{
-    shade_sight sight = SHADE_UNSEEN;
-    for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const double cosine = v3_dot(*wi, layer->z);
-        if (EFFECT_ROUND_SHAPES && sine > 0.0 && !is_surely_cap(layer, cosine, sine))
-            return see_exactly(p, wi, sine);
-        if (is_lit(layer, cosine))
-            sight = SHADE_CAP;
-    }
-    return sight;
-}
-
 bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
 {
-    return shade_see(p, &wi, sine) == SHADE_SHAPE;
+    wide_mask is_lit = 0, shape = 0;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        const wide_layer layer = wide_layer_of(&p->layers[i]);
+        layer_sees(&layer, w3_splat(wi), sine, &is_lit, &shape);
+    }
+    return wide_any(shape);
 }
 
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)

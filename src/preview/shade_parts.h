@@ -16,9 +16,15 @@ static inline const glint_surface *shade_surface(const shade_layer *layer)
     return layer->is_own ? NULL : &layer->surface;
 }
 
+static inline void shade_to_local(const shade_layer *layer, vec3 direction, float local[3])
+{
+    local[0] = (float)v3_dot(direction, layer->x);
+    local[1] = (float)v3_dot(direction, layer->y);
+    local[2] = (float)v3_dot(direction, layer->z);
+}
+
 /* ---- scatter.c ---- */
 
-void shade_to_local(const shade_layer *layer, vec3 world, float local[3]);
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to);
 /* A direction to the light for what the coat leaves of the base, which changes little over it: to its middle, or the
  * nearest above the coat's horizon. */

@@ -103,7 +103,8 @@ static radiance look_at_light(const world *w, int index, bool shadowed, const ve
     own.unshadowed = !shadowed;
     alone.lights = &own;
     alone.light_count = 1;
-    add_direct_light(&alone, &v->hit, &v->point, random, DIM_SURVEY, all, &sum, facets, counts);
+    const direct_point point = { v, random, all, &sum, facets, 0 };
+    add_direct_light(&alone, &point, DIM_SURVEY, counts);
     return sum;
 }
 
