@@ -103,10 +103,9 @@ static void note_limit(const glint_value *value, ray_counts *counts)
     counts->most_facets = fmaxf(counts->most_facets, value->facet_count);
 }
 
-static void add_up(const light_query *q)
+static void add_up(const light_query *q, const glint_value *value)
 {
     const direct_point *const p = q->to;
-    const glint_value *const value = q->shade.value;
     radiance *const sum = p->light;
     float total = 0.0F;
     for (int c = 0; c < 3; ++c) {
@@ -133,11 +132,10 @@ static void add_light(const world *w, light_query *q, const trace_ray *rays, ray
         shade_eval_area(s->point, &s->area, &value);
     else
         shade_eval(s->point, s->wi, s->solid_angle_sr, &value);
-    s->value = &value;
     for (int i = 0; i < shade_layers(s->point); ++i)
         ++*(s->point->layers[i].counts ? &counts->glint_evals : &counts->smooth_evals);
     note_limit(&value, counts);
-    add_up(q);
+    add_up(q, &value);
 }
 
 /* Lights that stand for all of them, of more than MOST_LIGHTS. */
@@ -278,7 +276,7 @@ static void add_some(const world *w, const direct_point *points, int count, uint
     counts->glint_evals += evaluated[1];
     for (int i = 0; i < lit; ++i) {
         note_limit(s->shades[i]->value, counts);
-        add_up(s->lit[i]);
+        add_up(s->lit[i], s->shades[i]->value);
     }
 }
 

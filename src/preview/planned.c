@@ -3,11 +3,11 @@
 
 #include "preview/survey.h"
 
-bool planned_make(planned *p, const preview_options *options, world *w, report *r)
+bool planned_make(planned *p, const preview_options *options, world *w, bool with_noise, report *r)
 {
     survey seen;
     char message[256] = "";
-    if (!survey_make(w, options, &seen, r))
+    if (!survey_make(w, options, with_noise, &seen, r))
         return false;
     const glint_result result = glint_plan_create(&seen.summary, &p->plan, message, sizeof message);
     survey_free(&seen);

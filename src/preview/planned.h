@@ -9,9 +9,9 @@ typedef struct planned {
     materials materials;
 } planned;
 
-/* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it
- * succeeds or not, planned_free frees what there is. */
-bool planned_make(planned *p, const preview_options *options, world *w, report *r);
+/* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it succeeds or not,
+ * planned_free frees what there is. with_noise: see survey_make. */
+bool planned_make(planned *p, const preview_options *options, world *w, bool with_noise, report *r);
 void planned_free(planned *p);
 
 #endif

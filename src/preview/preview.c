@@ -186,7 +186,8 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
     return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
-           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, r));
+           (!(o->accuracy > 0.0) ||
+            planned_make(&v->planned, o, &v->world, o->spp == 0 || o->planned != NULL, r));
 }
 
 void view_take_down(view *v)
@@ -196,14 +197,20 @@ void view_take_down(view *v)
     planned_free(&v->planned);
 }
 
-bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r)
+bool view_plan(const stage *st, const preview_options *o, glint_plan **plan, report *r)
 {
-    /* A view that leaves nothing out has not been looked at. */
-    if (v->planned.plan == NULL && !planned_make(&v->planned, o, &v->world, r))
-        return false;
-    *plan = v->planned.plan;
-    v->planned.plan = NULL;
-    return true;
+    view v = { 0 };
+    /* As it is before anything is left out. */
+    preview_options all = *o;
+    all.accuracy = 0.0;
+    const bool ok = view_set_up(&v, st, &all, r) && planned_make(&v.planned, o, &v.world, true, r);
+    *plan = NULL;
+    if (ok) {
+        *plan = v.planned.plan;
+        v.planned.plan = NULL;
+    }
+    view_take_down(&v);
+    return ok;
 }
 
 static unsigned default_facet_limit(void)
@@ -274,11 +281,9 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
 {
     preview_statistics unused = { 0 };
     stage st = { 0 };
-    view v = { 0 };
     *plan = NULL;
     const bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
-                    view_set_up(&v, &st, options, r) && view_plan(&v, options, plan, r);
-    view_take_down(&v);
+                    view_plan(&st, options, plan, r);
     stage_take_down(&st);
     return ok;
 }

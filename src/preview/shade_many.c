@@ -134,8 +134,7 @@ static void add_layers(shade_query *q, const part *base, const part *coat)
 
 static part *add_part(part *p, const shade_query *q, const shade_layer *layer)
 {
-    p->query = q;
-    p->layer = layer;
+    *p = (part){ q, layer, NULL };
     return p;
 }
 

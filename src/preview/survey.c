@@ -324,9 +324,9 @@ static survey_place place_in(int column, int row, int columns, int rows, const p
     return (survey_place){ (int)(u * o->width), (int)(v * o->height) };
 }
 
-static bool look(tally *t, const preview_options *o, int columns, int rows, report *r)
+static bool look(tally *t, const preview_options *o, bool with_noise, int columns, int rows, report *r)
 {
-    survey_noise noise;
+    survey_noise noise = { .samples = 1, .fall = 1.0 };
     survey_place *const places = calloc((size_t)columns * (size_t)rows, sizeof *places);
     if (places == NULL)
         return report_error(r, "no memory to look at %d x %d pixels", columns, rows);
@@ -338,14 +338,14 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
         }
     }
     const double enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0;
-    const bool done = survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
+    const bool done = !with_noise || survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
     free(places);
     if (done)
         end(t->out, t, &noise, o);
     return done;
 }
 
-bool survey_make(const world *w, const preview_options *o, survey *out, report *r)
+bool survey_make(const world *w, const preview_options *o, bool with_noise, survey *out, report *r)
 {
     world direct = *w;
     tally t = { .world = w, .direct = &direct, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
@@ -355,7 +355,7 @@ bool survey_make(const world *w, const preview_options *o, survey *out, report *
         return false;
     direct.bounces = 0;
     direct.emitters = NULL;
-    if (look(&t, o, columns, rows, r))
+    if (look(&t, o, with_noise, columns, rows, r))
         return true;
     survey_free(out);
     return false;
