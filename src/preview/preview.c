@@ -186,8 +186,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
     return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
-           (!(o->accuracy > 0.0) ||
-            planned_make(&v->planned, o, &v->world, o->spp == 0 || o->planned != NULL, r));
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, o->spp == 0 || o->planned != NULL, r));
 }
 
 void view_take_down(view *v)

@@ -273,44 +273,67 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
 
 /* ---- light from all around, found in two ways ---- */
 
-/* A layer under a patch, with the footprint that a sample of this density stands for. */
-static void eval_patch(const shade_layer *layer, const glint_surface *surface, const shade_surroundings *s,
-                       const float wi[3], float density, glint_value *value)
+float shade_patch_density(const shade_point *p, int i, const shade_surroundings *s)
 {
-    const glint_light light = { GLINT_LIGHT_CAP, fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI)) };
+    const shade_layer *const layer = &p->layers[i];
+    const glint_surface surface = surface_in_surroundings(p, layer);
+    float local[3];
+    shade_to_local(layer, s->wi, local);
+    return s->light_pdf + share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+}
+
+void shade_patch_set(const shade_point *p, int i, const shade_surroundings *s, float density, shade_patch *to)
+{
     const float expected = s->solid_angle_sr * density;
-    const float grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
-    const float longer = sqrtf(grown);
-    glint_footprint footprint = layer->footprint;
-    footprint.dudx *= longer;
-    footprint.dudy *= longer;
-    footprint.dvdx *= longer;
-    footprint.dvdy *= longer;
-    glint_eval_value(layer->material, surface, layer->counts ? &footprint : NULL, layer->wo, wi, &light, value);
-    value->facet_count /= grown;
+    to->grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
+    to->density = density;
+    to->solid_angle_sr = fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI));
+    to->layer = p->layers[i];
+    to->layer.is_own = false;
+    to->layer.surface = surface_in_surroundings(p, &p->layers[i]);
+    glint_footprint *const f = &to->layer.footprint;
+    const float longer = sqrtf(to->grown);
+    f->dudx *= longer;
+    f->dudy *= longer;
+    f->dvdx *= longer;
+    f->dvdy *= longer;
+}
+
+static void eval_patch(const shade_patch *patch, vec3 wi, glint_value *value)
+{
+    const glint_light light = { GLINT_LIGHT_CAP, patch->solid_angle_sr };
+    const shade_layer *const layer = &patch->layer;
+    float local[3];
+    shade_to_local(layer, wi, local);
+    glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
+                     &light, value);
+}
+
+void shade_add_patch(const shade_point *p, int i, vec3 wi, const shade_patch *patch, glint_value *one, glint_value *sum)
+{
+    float weight[3];
+    weigh(p, i, wi, weight);
+    for (int c = 0; c < 3; ++c) {
+        sum->rgb[c] += weight[c] * one->rgb[c] / patch->density;
+        sum->smooth[c] += weight[c] * one->smooth[c] / patch->density;
+    }
+    one->facet_count /= patch->grown;
+    if (patch->layer.counts)
+        add_facets(one, sum);
 }
 
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
 {
     *value = (glint_value){ 0 };
     for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const glint_surface surface = surface_in_surroundings(p, layer);
-        float local[3], weight[3];
+        const float density = shade_patch_density(p, i, s);
+        shade_patch patch;
         glint_value one;
-        shade_to_local(layer, s->wi, local);
-        const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
-        const float density = s->light_pdf + own;
         if (!(density > 0.0F))
             continue;
-        eval_patch(layer, &surface, s, local, density, &one);
-        weigh(p, i, s->wi, weight);
-        for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += weight[c] * one.rgb[c] / density;
-            value->smooth[c] += weight[c] * one.smooth[c] / density;
-        }
-        if (layer->counts)
-            add_facets(&one, value);
+        shade_patch_set(p, i, s, density, &patch);
+        eval_patch(&patch, s->wi, &one);
+        shade_add_patch(p, i, s->wi, &patch, &one, value);
     }
 }
 
@@ -323,10 +346,10 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
     glint_value one = { 0 };
     *value = (glint_value){ 0 };
     if (counts) {
-        const glint_surface surface = surface_in_surroundings(p, layer);
-        float local[3];
-        shade_to_local(layer, s->wi, local);
-        eval_patch(layer, &surface, s, local, density, &one);
+        shade_patch patch;
+        shade_patch_set(p, found->layer, s, density, &patch);
+        eval_patch(&patch, s->wi, &one);
+        one.facet_count /= patch.grown;
         add_facets(&one, value);
     }
     for (int c = 0; c < 3; ++c) {

@@ -142,6 +142,9 @@ typedef struct shade_surroundings {
  * Few samples look into a patch, so each stands for more of the pixel than its own footprint: for 1 / P of it, with P
  * samples expected there. It counts the facets of that area. */
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value);
+/* The same for at most 64 of them, bit for bit, in batches. */
+void shade_eval_surroundings_many(const shade_point *const *points, const shade_surroundings *const *from, int count,
+                                  glint_value *values);
 /* The same for one that shade_sample found: its layer's part. */
 void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
                       glint_value *value);

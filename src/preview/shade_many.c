@@ -162,3 +162,48 @@ void shade_eval_many(shade_query *const *queries, int count, glint_value values[
             base->value->facet_count = base->value->lit_probability = 0.0F;
     }
 }
+
+/* ---- patches ---- */
+
+/* The layers of a point under a patch: those of *patches that are there. */
+static int add_patches(const shade_point *p, const shade_surroundings *s, shade_query *query, shade_patch *patches,
+                       part *parts)
+{
+    int count = 0;
+    for (int i = 0; i < shade_layers(p); ++i) {
+        const float density = shade_patch_density(p, i, s);
+        if (!(density > 0.0F))
+            continue;
+        shade_patch_set(p, i, s, density, &patches[i]);
+        query->solid_angle_sr = patches[i].solid_angle_sr;
+        add_part(&parts[count++], query, &patches[i].layer);
+    }
+    query->wi = s->wi;
+    query->is_area = false;
+    return count;
+}
+
+/* At most GROUP points. */
+void shade_eval_surroundings_many(const shade_point *const *points, const shade_surroundings *const *from, int count,
+                                  glint_value *values)
+{
+    shade_query queries[GROUP];
+    shade_patch patches[GROUP][2];
+    part parts[2 * GROUP], *list[2 * GROUP];
+    glint_value of_layers[2 * GROUP];
+    uint64_t unused[2] = { 0 };
+    int part_count = 0;
+    for (int i = 0; i < count; ++i)
+        part_count += add_patches(points[i], from[i], &queries[i], patches[i], &parts[part_count]);
+    for (int i = 0; i < part_count; ++i)
+        list[i] = &parts[i];
+    evaluate_all(list, part_count, of_layers, unused);
+    const part *p = parts;
+    for (int i = 0; i < count; ++i) {
+        values[i] = (glint_value){ 0 };
+        for (; p < &parts[part_count] && p->query == &queries[i]; ++p) {
+            const int layer = p->layer == &patches[i][1].layer;
+            shade_add_patch(points[i], layer, from[i]->wi, &patches[i][layer], p->value, &values[i]);
+        }
+    }
+}

@@ -32,6 +32,21 @@ vec3 shade_towards_area(const shade_point *p, const shade_area *area);
 /* Adds to *sum what is seen of *one: of the light from wi that layer i scatters. */
 void shade_add_layer(const shade_point *p, int i, vec3 wi, const glint_value *one, glint_value *sum);
 
+/* A layer under a patch of even light: where occlusion is, and with the footprint that a sample stands for. */
+typedef struct shade_patch {
+    shade_layer layer;
+    float density; /* with which the direction is drawn, in both ways together */
+    float solid_angle_sr, grown;
+} shade_patch;
+
+/* The density of a direction that the light's own distribution gave, see shade_eval_surroundings; 0: it counts for
+ * nothing. */
+float shade_patch_density(const shade_point *p, int i, const shade_surroundings *s);
+void shade_patch_set(const shade_point *p, int i, const shade_surroundings *s, float density, shade_patch *to);
+/* Adds to *sum what the patch shows; *one is spent. */
+void shade_add_patch(const shade_point *p, int i, vec3 wi, const shade_patch *patch, glint_value *one,
+                     glint_value *sum);
+
 /* ---- ways to make a hit ready ---- */
 
 /* shade.c: all that glTF can ask of a surface. */

@@ -338,7 +338,8 @@ static bool look(tally *t, const preview_options *o, bool with_noise, int column
         }
     }
     const double enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0;
-    const bool done = !with_noise || survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
+    const bool done =
+        !with_noise || survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
     free(places);
     if (done)
         end(t->out, t, &noise, o);

@@ -19,8 +19,8 @@ typedef struct survey {
     survey_name *light_names;
 } survey;
 
-/* w leaves nothing out. The same for every number of threads and for every tile of a picture. with_noise false: where the
- * number of samples is given and no one asks what they leave. */
+/* w leaves nothing out. The same for every number of threads and for every tile of a picture. with_noise false: where
+ * the number of samples is given and no one asks what they leave. */
 bool survey_make(const world *w, const preview_options *o, bool with_noise, survey *out, report *r);
 void survey_free(survey *s);
 
