@@ -6,6 +6,8 @@
 
 /* The local frame: z the normal, x as near to `along` as can be. */
 void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo);
+/* The second layer of a point is there: what it leaves of the first. */
+void shade_begin_coat(shade_point *p);
 /* The footprint of a layer, where it counts. */
 void shade_place_glints(const shader *s, const hit *h, const hit_step *step, float choice, vec3 wo,
                         scene_glint_layer which, shade_layer *layer);
@@ -51,7 +53,7 @@ void shade_add_patch(const shade_point *p, int i, vec3 wi, const shade_patch *pa
 
 /* shade.c: all that glTF can ask of a surface. */
 shade_preparer shade_prepare_any;
-/* shade_plain.c: a surface that is the same everywhere. */
-shade_preparer shade_prepare_plain;
+/* shade_plain.c: a surface that is the same everywhere, without a coat and with one. */
+shade_preparer shade_prepare_plain, shade_prepare_coated;
 
 #endif
