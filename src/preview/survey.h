@@ -4,6 +4,9 @@
 
 #include "preview/integrator.h"
 
+/* Of a pixel, that tell what bounces bring. */
+enum { SURVEY_SAMPLES = 4 };
+
 typedef struct survey_name {
     char text[56];
 } survey_name;
