@@ -25,6 +25,7 @@
 
 typedef struct tally {
     const world *world;
+    const uint8_t *sights;
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
@@ -42,6 +43,8 @@ static glint_plan_pair *pair_of(tally *t, int material, int index)
         glint_plan_pair *const pair = &t->out->pairs[t->out->summary.pair_count++];
         pair->material = (uint32_t)material;
         pair->light = (uint32_t)index;
+        pair->is_clear = index < t->world->light_count &&
+                         t->sights[(size_t)material * (size_t)t->world->light_count + (size_t)index] != CLEAR_UNKNOWN;
         *known = t->out->summary.pair_count;
     }
     return &t->out->pairs[*known - 1U];
@@ -68,6 +71,7 @@ static void add_light(tally *t, const survey_pixel *from, const survey_light *l)
     to->blocked_rays += l->is_blocked;
     t->square += sparks;
     pair->seen += evals;
+    pair->shadow_rays += (float)l->shadow_rays;
     add_shape(t, l->shape, pair, evals, part, sparks);
     if (!l->counts)
         return;
@@ -120,6 +124,7 @@ static void end_pairs(survey *s, const tally *t)
         if (!(pair.seen > 0.0F))
             continue;
         pair.seen *= inverse;
+        pair.shadow_rays *= inverse;
         for (int k = 0; k < GLINT_PLAN_SHAPES; ++k) {
             const double sparks = s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
             pair.shapes[k].seen *= inverse;
@@ -256,9 +261,9 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
     return done;
 }
 
-bool survey_make(const world *w, const preview_options *o, survey *out, report *r)
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r)
 {
-    tally t = { .world = w, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
+    tally t = { .world = w, .sights = sights, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
     int columns, rows;
     choose_grid(w, o, &columns, &rows);
     if (!survey_begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))

@@ -14,7 +14,7 @@ void small_plan_fill(small_scene *s, float lit_facets, uint32_t samples)
     s->options = (glint_material_options)GLINT_MATERIAL_OPTIONS_INIT;
     s->material = (glint_plan_material){ .name = "flakes", .base = &s->options, .seen = 1.0F };
     s->light = (glint_plan_light){ .name = "the lamp", .shadow_rays = 400, .blocked_rays = 30 };
-    s->pair = (glint_plan_pair){ .seen = 1.0F };
+    s->pair = (glint_plan_pair){ .seen = 1.0F, .shadow_rays = 1.0F };
     s->pair.share[glint_plan_bin(lit_facets)] = 1.0F;
     s->pair.rate[glint_plan_bin(lit_facets)] = 1.0F;
     s->summary = (glint_plan_summary)GLINT_PLAN_SUMMARY_INIT;

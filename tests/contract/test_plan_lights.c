@@ -113,12 +113,51 @@ static void shadows_stay_whatever_a_survey_has_not_seen(void **state)
     }
 }
 
+/* Of two materials under the lamp one is proven to be in nobody's shadow: its rays cost nothing, those of the other do.
+ */
+static void shadows_that_cannot_be_are_left_out(void **state)
+{
+    (void)state;
+    small_scene s;
+    small_plan_fill(&s, 10.0F, 16);
+    glint_plan_material materials[2] = { s.material, s.material };
+    glint_plan_pair pairs[2] = { s.pair, s.pair };
+    pairs[1].material = 1;
+    pairs[1].shadow_rays = 0.25F;
+    s.summary.materials = materials;
+    s.summary.pairs = pairs;
+    s.summary.material_count = s.summary.pair_count = 2;
+    float ns[2];
+    for (uint32_t k = 0; k < 2; k++) {
+        pairs[0].is_clear = k;
+        glint_plan *plan = small_plan_of(&s);
+        const glint_decision *d = small_plan_find(plan, GLINT_EFFECT_SHADOWS);
+        if (k == 1) {
+            assert_true(!d->is_on && d->material == 0 && d->light == 0 && d->error == 0.0F);
+            assert_string_equal(d->choice, "none");
+            d++;
+        }
+        assert_true(d->effect == GLINT_EFFECT_SHADOWS && d->is_on && d->material == -1);
+        ns[k] = d->ns_per_sample;
+        glint_plan_destroy(plan);
+    }
+    assert_true(ns[1] > 0.0F && fabsf(ns[0] / ns[1] - 5.0F) < 1e-4F);
+
+    pairs[1].is_clear = 1;
+    glint_plan *plan = small_plan_of(&s);
+    for (uint32_t i = 0; i < glint_plan_decision_count(plan); i++)
+        assert_false(glint_plan_decision(plan, i)->effect == GLINT_EFFECT_SHADOWS &&
+                     glint_plan_decision(plan, i)->is_on);
+    glint_plan_destroy(plan);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fit_stands_for_a_shape_unless_it_turns_few_facets_on_and_off),
         cmocka_unit_test(cap_stands_for_a_shape_where_the_budget_allows_it),
         cmocka_unit_test(shadows_stay_whatever_a_survey_has_not_seen),
+        cmocka_unit_test(shadows_that_cannot_be_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
