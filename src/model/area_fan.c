@@ -47,7 +47,8 @@ static inline vfloat greatest(vfloat x)
 
 static inline vfloat3 sum_of(vfloat3 v)
 {
-    return splat3(fold_one(v.x), fold_one(v.y), fold_one(v.z));
+    const vfloat sums = fold_four(v.x, v.y, v.z, v.z);
+    return splat3(sums[0], sums[1], sums[4]);
 }
 
 /* Scales the ring; the shape is the same in all lanes. */
@@ -124,12 +125,11 @@ int AREA_FAN_OF(const float (*corner)[3], int count, int two_sided, area_nodes *
         return PLAIN_LEFT;
     const area_lobe lobe = area_lobe_of(n->is_ggx, n->is_schlick, splat3(n->wo.x, n->wo.y, n->wo.z),
                                         splat(n->visible_o), splat(n->alpha_x), splat(n->alpha_y));
+    /* Both bends at once, that of the wide squares in the first lane. */
+    const vint first = { 1, 0, 0, 0, 0, 0, 0, 0 };
+    const vfloat size = choose(equal_i(first, splat_i(1)), plain_wide(&s), plain_slim(&s));
+    const vfloat bend = plain_bend(&lobe, s.middle, size, s.reach, s.height);
     vmask from_middle;
-    /* Both bends at once. */
-    const vfloat wide = plain_wide(&s), slim = plain_slim(&s);
-    const vfloat bend =
-        plain_bend(&lobe, s.middle, (vfloat){ wide[0], slim[0], wide[0], slim[0], wide[0], slim[0], wide[0], slim[0] },
-                   s.reach, s.height);
     const plain_light p =
         plain_polygon_rule(&s, splat_i(count), splat_i(two_sided), splat(bend[0]), splat(bend[1]), &from_middle);
     *left = p.left[0];
