@@ -14,7 +14,7 @@ static void gather_cap(const world *w, const light_batch *b, int k, const sample
     q->shade.wi = v3(b->wi[0][k], b->wi[1][k], b->wi[2][k]);
     q->shade.solid_angle_sr = b->solid_angle_sr[k];
     q->shadow.is_shared = false;
-    q->shadow.ray_count = q->shadow.light->unshadowed ? 0 : 1;
+    q->shadow.ray_count = q->shadow.light->unshadowed || q->shadow.is_clear ? 0 : 1;
     if (EFFECT_ALPHA && w->is_blended)
         ray->random = sampler_bits(random, dimension);
 }
@@ -33,6 +33,17 @@ static bool gather_shape(const light_batch *b, int k, const direct_point *p, uin
                              &q->shade.area);
 }
 
+/* Whether the plan has it proven that nothing comes between the point and one of the world's lights. */
+static bool is_clear(const world *w, const hit *h, const light *l, const light_batch *b, int k)
+{
+    if (w->sights == NULL)
+        return false;
+    const light_view view = light_batch_view(b, k);
+    const size_t index = (size_t)h->mesh->material * (size_t)w->light_count + (size_t)(l - w->lights);
+    const clear_sight sight = (clear_sight)w->sights[index];
+    return light_is_area(l) ? clear_sight_of_flat(sight, h, l) : clear_sight_of_round(sight, h, l, &view);
+}
+
 /* A point that sees the light: number k of the batch. rays: room for those that the query then waits for. False: the
  * light does not reach the point, and nothing has to be asked for it. */
 static bool gather_light(const world *w, const light_batch *b, int k, const direct_point *p, uint32_t dimension,
@@ -43,6 +54,7 @@ static bool gather_light(const world *w, const light_batch *b, int k, const dire
     q->weight = 1.0F;
     q->to = p;
     q->shadow.light = l;
+    q->shadow.is_clear = is_clear(w, &p->vertex->hit, l, b, k);
     q->shade.point = &p->vertex->point;
     q->shade.is_area = (b->shapes >> k & 1U) != 0 && (EFFECT_ROUND_SHAPES || light_is_area(l));
     rays[0] = (trace_ray){ .origin = v3(b->origin[0][k], b->origin[1][k], b->origin[2][k]),
