@@ -143,7 +143,14 @@ void shade_prepare_coated(const shader *s, const hit *h, const hit_step *step, v
     coat->is_own = !handles->coat_mapped;
     coat->surface = c->coat;
     coat->weight = c->clearcoat;
-    shade_set_frame(coat, h->normal, h->tangent, wo);
+    const shade_layer *const base = &out->layers[0];
+    coat->x = base->x;
+    coat->y = base->y;
+    coat->z = base->z;
+    for (int i = 0; i < 3; ++i)
+        coat->wo[i] = base->wo[i];
+    if (base->mapped) /* which has turned the frame */
+        shade_set_frame(coat, h->normal, h->tangent, wo);
     shade_begin_coat(out);
     if (EFFECT_FACETS && coat->counts)
         shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_CLEARCOAT, coat);
