@@ -511,7 +511,9 @@ enum { GLINT_PLAN_SHAPES = 6 };
 /* One light on one material, over the picture. */
 typedef struct glint_plan_pair {
     uint32_t material, light;
-    float seen; /* evaluations per sample */
+    float seen;        /* evaluations per sample */
+    float shadow_rays; /* per sample */
+    uint32_t is_clear; /* proven, not seen: nothing can come between the material, wherever it is, and the light */
     glint_plan_shape shapes[GLINT_PLAN_SHAPES];
     float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
                                      this light's part of the pixel; 0 where no facets are counted */

@@ -114,6 +114,7 @@ static void check_pair(complaint *c, const glint_plan_summary *s, uint32_t index
         complain(c, GLINT_ERROR_RANGE, "pairs[%u].light is %u, expected less than %u", index, pair->light,
                  s->light_count);
     check(c, "pairs[].seen", pair->seen, 0.0F, 1e9F);
+    check(c, "pairs[].shadow_rays", pair->shadow_rays, 0.0F, 1e9F);
     for (int i = 0; i < GLINT_PLAN_SHAPES; i++) {
         check(c, "pairs[].shapes[].seen", pair->shapes[i].seen, 0.0F, 1e9F);
         check(c, "pairs[].shapes[].part", pair->shapes[i].part, 0.0F, 1e9F);
@@ -165,7 +166,7 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
 }
 
 /* What a material can say at most: its look-ups, colours, layers, anisotropy, textures, normal maps and alpha. */
-enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 3, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
+enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 4, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
 
 static glint_plan *make(const glint_plan_summary *s)
 {
@@ -177,7 +178,7 @@ static glint_plan *make(const glint_plan_summary *s)
         materials * MOST_PER_MATERIAL + s->pair_count * MOST_PER_PAIR + lights * MOST_PER_LIGHT + MOST_OF_ALL;
     /* One piece: the plan, then its arrays, those with pointers or larger members first. */
     const size_t size = sizeof(glint_plan) + materials * sizeof(plan_material) + decisions * sizeof(glint_decision) +
-                        lights * sizeof(float) + (materials + 1 + s->pair_count) * sizeof(uint32_t);
+                        2 * lights * sizeof(float) + (materials + 1 + s->pair_count) * sizeof(uint32_t);
     glint_plan *const p = a.allocate(size, a.user);
     if (!p)
         return NULL;
@@ -188,7 +189,8 @@ static glint_plan *make(const glint_plan_summary *s)
     p->materials = (plan_material *)(p + 1);
     p->decisions = (glint_decision *)(p->materials + materials);
     p->light_seen = (float *)(p->decisions + decisions);
-    p->first_pair = (uint32_t *)(p->light_seen + lights);
+    p->light_shadows = p->light_seen + lights;
+    p->first_pair = (uint32_t *)(p->light_shadows + lights);
     p->pairs = p->first_pair + materials + 1;
     p->capacity = (uint32_t)decisions;
     return p;
@@ -201,6 +203,7 @@ static void sort_pairs(glint_plan *p)
     for (uint32_t i = 0; i < s->pair_count; i++) {
         p->first_pair[s->pairs[i].material]++;
         p->light_seen[s->pairs[i].light] += s->pairs[i].seen;
+        p->light_shadows[s->pairs[i].light] += s->pairs[i].is_clear ? 0.0F : s->pairs[i].shadow_rays;
     }
     uint32_t sum = 0;
     for (uint32_t m = 0; m <= s->material_count; m++)
@@ -232,6 +235,7 @@ static void decide(glint_plan *p, uint32_t samples, double budget)
     plan_surfaces(p);
     plan_bounces(p);
     plan_lights(p);
+    plan_shadows(p);
     decide_facets(p);
     plan_samples(p);
 }

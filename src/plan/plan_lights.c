@@ -211,17 +211,6 @@ static void decide_light(glint_plan *p, uint32_t index)
         plan_decide(p, d, "%s is sampled by its light", name_of(l));
 }
 
-/* No survey proves that there are none: a pixel whose shadow is missed is brighter than it should be by any factor. */
-static void decide_shadows(glint_plan *p, uint32_t index)
-{
-    const glint_plan_light *const l = &p->summary.lights[index];
-    const float rays = (float)l->shadow_rays / fmaxf((float)p->summary.pixel_count, 1.0F);
-    const glint_decision d = {
-        GLINT_EFFECT_SHADOWS, -1, (int32_t)index, 1, "traced", "", rays * plan_costs[PLAN_COST_SHADOW_RAY], 0.0F, 0.0F
-    };
-    plan_decide(p, d, "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays, name_of(l));
-}
-
 void plan_lights(glint_plan *p)
 {
     choose_methods(p);
@@ -233,7 +222,4 @@ void plan_lights(glint_plan *p)
             decide_caps(p, &p->summary.pairs[i]);
             decide_shape(p, &p->summary.pairs[i]);
         }
-    for (uint32_t i = 0; i < p->summary.light_count; i++)
-        if (p->summary.lights[i].shadow_rays > 0)
-            decide_shadows(p, i);
 }

@@ -4,6 +4,9 @@
 
 #include "preview/integrator.h"
 
+/* Of a pixel, that tell what bounces bring. */
+enum { SURVEY_SAMPLES = 4 };
+
 typedef struct survey_name {
     char text[56];
 } survey_name;
@@ -19,8 +22,9 @@ typedef struct survey {
     survey_name *light_names;
 } survey;
 
-/* w leaves nothing out. The same for every number of threads and for every tile of a picture. */
-bool survey_make(const world *w, const preview_options *o, survey *out, report *r);
+/* w leaves nothing out. sights: what is proven of its lights. The same for every number of threads and for every
+ * tile of a picture. */
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r);
 void survey_free(survey *s);
 
 /* survey_scene.c: materials and lights, and room for as many pairs of them as can be seen. On failure *out is zeroed.
