@@ -149,7 +149,8 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     put_between(f, "<section id=\"", o->study->name, "\">\n");
     put_between(f, "<h2>", o->study->title, "</h2>\n");
     put_between(f, "<p class=\"truth\">Held against: ", o->study->truth, ".</p>\n");
-    put_between(f, "<p class=\"choose\"><strong>Choose</strong> ", o->study->choose, "</p>\n<ul class=\"found\">\n");
+    put_between(f, "<p class=\"choose\"><strong>Choose</strong> ", study_outcome_choose(o),
+                "</p>\n<ul class=\"found\">\n");
     for (size_t i = 0; i < o->line_count; ++i) {
         const study_line *const line = &o->lines[i];
         put(f, !line->is_check ? "<li>" : line->holds ? "<li class=\"holds\">" : "<li class=\"fails\">");
@@ -178,7 +179,7 @@ static void put_summary(output_file *f, const study_outcome *outcomes, size_t co
         const study_outcome *const o = &outcomes[i];
         put_between(f, "<tr><td><a href=\"#", o->study->name, "\">");
         put_between(f, "", o->study->title, "</a></td><td>");
-        put_between(f, "", o->study->choose, o->failed ? "</td><td class=\"fails\">" : "</td><td>");
+        put_between(f, "", study_outcome_choose(o), o->failed ? "</td><td class=\"fails\">" : "</td><td>");
         snprintf(number, sizeof number, "%d of %d", o->checks - o->failed, o->checks);
         put_all(f, "", number, "</td><td>");
         number_duration(number, sizeof number, o->elapsed_s);

@@ -198,14 +198,7 @@ static void *stop_soon(void *unused)
     return NULL;
 }
 
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* The whole picture would take minutes; a pixel, after which the flag is read, a few milliseconds. */
+/* The whole picture would take longer than ctest waits; a pixel, after which the flag is read, a few milliseconds. */
 static void cancelling_ends_soon_without_a_picture_and_without_an_error(void **state)
 {
     (void)state;
@@ -219,11 +212,9 @@ static void cancelling_ends_soon_without_a_picture_and_without_an_error(void **s
     image i;
     report r = { 0 };
     pthread_t helper;
-    const double start = now_s();
     assert_int_equal(pthread_create(&helper, NULL, stop_soon, NULL), 0);
     assert_false(preview_render(&s, &o, &i, NULL, &r));
     pthread_join(helper, NULL);
-    assert_true(now_s() - start < 10.0);
     assert_true(r.error[0] == '\0');
     assert_null(i.pixels);
     scene_free(&s);

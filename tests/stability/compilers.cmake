@@ -81,4 +81,4 @@ if(GLINT_AARCH64 AND GLINT_QEMU_AARCH64 AND NOT CMAKE_SYSTEM_PROCESSOR STREQUAL 
   digest_variant(aarch64 ${GLINT_AARCH64} -O3 -fno-tree-slp-vectorize ON ${GLINT_QEMU_AARCH64})
 endif()
 add_test(NAME compilers COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/compilers.sh build=$<TARGET_FILE:stability_digest> ${digest_programs})
-set_tests_properties(compilers PROPERTIES TIMEOUT 300)
+set_tests_properties(compilers PROPERTIES TIMEOUT 900)

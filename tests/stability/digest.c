@@ -71,10 +71,13 @@ static uint64_t hash_queries(uint64_t hash, const glint_material *m, uint64_t *r
     return hash;
 }
 
+/* Caps, and lights of real size, at the same points. */
 static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *random)
 {
     static double u[BATCH], v[BATCH];
     static float step[4][BATCH], wo[3][BATCH], wi[3][BATCH], angle[BATCH], rgb[3][BATCH];
+    static glint_area_light light[BATCH];
+    static uint32_t draw[BATCH];
     for (int i = 0; i < BATCH; i++) {
         float o[3], w[3];
         exact_direction(random, o);
@@ -91,25 +94,30 @@ static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *ran
             wi[k][i] = w[k];
         }
         angle[i] = exact_solid_angle(random);
+        light[i] = exact_light(random);
+        draw[i] = (uint32_t)random_bits(random);
     }
-    const glint_batch b = { sizeof(b),
-                            BATCH,
-                            u,
-                            v,
-                            step[0],
-                            step[1],
-                            step[2],
-                            step[3],
-                            NULL,
-                            { wo[0], wo[1], wo[2] },
-                            { wi[0], wi[1], wi[2] },
-                            angle,
-                            NULL,
-                            { rgb[0], rgb[1], rgb[2] },
-                            NULL };
-    glint_eval_batch(m, &b);
-    for (int k = 0; k < 3; k++)
-        hash = hash_floats(hash, rgb[k], BATCH);
+    glint_batch b = GLINT_BATCH_INIT;
+    b.count = BATCH;
+    b.u = u;
+    b.v = v;
+    b.dudx = step[0];
+    b.dudy = step[1];
+    b.dvdx = step[2];
+    b.dvdy = step[3];
+    for (int k = 0; k < 3; k++) {
+        b.wo[k] = wo[k];
+        b.wi[k] = wi[k];
+        b.rgb[k] = rgb[k];
+    }
+    b.solid_angle_sr = angle;
+    b.draw = draw;
+    for (int is_area = 0; is_area < 2; is_area++) {
+        b.area_lights = is_area ? light : NULL;
+        glint_eval_batch(m, &b);
+        for (int k = 0; k < 3; k++)
+            hash = hash_floats(hash, rgb[k], BATCH);
+    }
     return hash;
 }
 
@@ -291,6 +299,8 @@ static void print_kernels(void)
         w.kernel(&points, POINTS, factor[0], facets);
         uint64_t hash = hash_floats(HASH_START, factor[0], POINTS);
         hash = hash_floats(hash, facets, POINTS);
+        w.drawn(&points, a.seed, POINTS, factor[0], facets);
+        hash = hash_floats(hash, factor[0], POINTS);
         float *const factors[3] = { factor[0], factor[1], factor[2] };
         w.tinted(&points, POINTS, &palette, factors, facets);
         for (int k = 0; k < 3; k++)
