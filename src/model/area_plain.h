@@ -175,12 +175,12 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
     return p;
 }
 
-/* Gives lanes that follow no rule something to compute that is a number. */
+/* Gives lanes that follow no rule, or that of a polygon, something to compute that is a number. */
 static inline plain_light plain_light_for_sums(const plain_light *p)
 {
     const vfloat zero = splat(0.0F);
     const vfloat3 none = { zero, zero, zero }, up = { zero, zero, splat(1.0F) };
-    const vmask plain = less_i(splat_i(-1), p->rule);
+    const vmask plain = less_i(splat_i(-1), p->rule) & less_i(p->rule, splat_i(PLAIN_POLYGON));
     return (plain_light){ choose_3(plain, p->middle, up),
                           choose_3(plain, p->u, none),
                           choose_3(plain, p->v, none),
