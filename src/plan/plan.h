@@ -25,6 +25,8 @@ struct glint_plan {
     glint_plan_outcome outcome;
     double budget;   /* that may be left out: all of the error budget, or what the noise leaves of it */
     double variance; /* of all errors so far */
+    double excess;   /* of facets that flip, so much more over the picture's mean than over its root mean square */
+    int is_strict;   /* the budget is for errors over the mean */
     plan_material *materials;
     uint32_t *first_pair, *pairs; /* indices of the summary's pairs, material by material; where each material begins */
     float *light_seen;            /* evaluations of each light per sample */

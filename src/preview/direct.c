@@ -77,8 +77,14 @@ double direct_cap_error(const light *l, const shade_point *p, vec3 position, lig
     return shade_cap_error(p, cap->wi, cap->sine) + light_round_error(l, cap);
 }
 
-/* A shape that all of the point sees becomes a cap where the view allows that. Up to half of the error that may be all
- * samples take the cap, beyond it ever fewer, so that no seam shows where shapes begin. */
+/* Up to half of the error that may be all samples take the cap, beyond it ever fewer, so that no seam shows where
+ * shapes begin. */
+double direct_cap_share(double error, double most)
+{
+    return error < most ? smaller_of(2.0 - 2.0 * error / most, 1.0) : 0.0;
+}
+
+/* A shape that all of the point sees becomes a cap where the view allows that. */
 static void take_cap(const world *w, light_query *q)
 {
     light_view cap;
@@ -86,7 +92,7 @@ static void take_cap(const world *w, light_query *q)
         return;
     const vec3 position = q->to->vertex->hit.position;
     const double error = direct_cap_error(q->shadow.light, q->shade.point, position, &cap), most = w->cap_error;
-    if (!(error < most) || 2.0 * error > most * (1.0 + (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
+    if (!(direct_cap_share(error, most) > 1.0 - (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
         return;
     q->shade.is_area = false;
     q->shade.wi = cap.wi;

@@ -46,7 +46,7 @@ static bool set_irradiance(const light *l, double factor, light_view *out)
 {
     bool is_any = false;
     for (int c = 0; c < 3; ++c) {
-        out->irradiance[c] = (float)((double)l->intensity[c] * factor);
+        out->irradiance[c] = (float)smaller_of((double)l->intensity[c] * factor, LIGHT_MOST_IRRADIANCE);
         is_any = is_any || out->irradiance[c] > 0.0F;
     }
     return is_any;

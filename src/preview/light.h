@@ -11,6 +11,8 @@
 /* A light without size would light no facet: an angular radius of 1e-5 rad, a 50th of a planet's disc. Taste. */
 #define LIGHT_SMALLEST_ANGLE 1e-5
 #define LIGHT_SMALLEST_CAP (PREVIEW_PI * LIGHT_SMALLEST_ANGLE * LIGHT_SMALLEST_ANGLE)
+/* On a point that all but lies in the light: what is added up of it is still a number. */
+#define LIGHT_MOST_IRRADIANCE 1e30
 
 typedef struct light {
     scene_light_kind kind;

@@ -36,7 +36,8 @@ static inline wide_mask irradiate(const light *l, const wide_view *v, int at, li
     const wide zero = wide_splat(0.0);
     wide_mask is_any = wide_less(zero, zero);
     for (int c = 0; c < 3; ++c) {
-        const wide irradiance = wide_rounded((double)l->intensity[c] * v->factor);
+        const wide full = (double)l->intensity[c] * v->factor;
+        const wide irradiance = wide_rounded(wide_smaller(full, wide_splat(LIGHT_MOST_IRRADIANCE)));
         wide_store_floats(&b->irradiance[c][at], irradiance);
         is_any = is_any | wide_less(zero, irradiance);
     }

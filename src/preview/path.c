@@ -88,10 +88,13 @@ static bool leave(const world *w, path *p, int depth, ray_counts *counts)
     return true;
 }
 
-/* What the ray brings by itself that has met nothing, or goes too far. False: the path ends. */
+/* What the ray brings by itself that has met nothing, or goes too far. False: the path ends.
+ *
+ * What glows or surrounds is dark behind a back: that throws a shadow, as rays towards the lights find, and the other
+ * half of what the balance heuristic shares out would be missing. Surfaces that only reflect are seen through it. */
 static bool has_met(const world *w, const path *p, bool met, int depth, ray_counts *counts)
 {
-    if (!met)
+    if (!met && !p->v.found.through_back)
         add_escaped_light(w, &p->v.point, &p->next, p->throughput, p->sum, counts);
     return met && depth <= w->bounces;
 }
@@ -100,14 +103,16 @@ static bool has_met(const world *w, const path *p, bool met, int depth, ray_coun
 static void arrive(const world *w, path *p, int depth, ray_counts *counts)
 {
     vertex *const v = &p->v;
+    const bool dark = v->found.through_back;
     path_look(w, v, p->random, depth);
     v->turn = hit_turn(&v->hit, &v->hit_step);
-    const bool sampled = w->emitters != NULL && add_found_glow(w, &p->left, &p->next, &v->found, &v->hit,
-                                                               v->point.emission, p->throughput, p->sum, counts);
+    const bool sampled =
+        !dark && w->emitters != NULL &&
+        add_found_glow(w, &p->left, &p->next, &v->found, &v->hit, v->point.emission, p->throughput, p->sum, counts);
     for (int c = 0; c < 3; ++c)
         p->throughput[c] *= p->next.weight[c];
     shade_widen(&v->point, differential_half_vector_variance(&v->step, &v->turn));
-    if (!sampled)
+    if (!sampled && !dark)
         add_light(p->sum, p->throughput, v->point.emission);
 }
 
@@ -151,9 +156,9 @@ static int go_on(const world *w, int active, int depth, path_scratch *s, ray_cou
     trace_closest_many(w->trace, s->rays, left, TRACE_BLEND_RANDOM, s->hits, s->met);
     for (int i = 0; i < left; ++i) {
         path *const p = s->active[i];
+        p->v.found = s->hits[i];
         if (!has_met(w, p, s->met[i], depth, counts))
             continue;
-        p->v.found = s->hits[i];
         s->tasks[arrived] = path_hit(&p->v);
         s->active[arrived++] = p;
     }

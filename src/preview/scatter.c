@@ -107,21 +107,11 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 
 /* ---- lights as shapes ---- */
 
-static wide_layer wide_layer_of(const shade_layer *l)
-{
-    return (wide_layer){ .x = w3_splat(l->x),
-                         .y = w3_splat(l->y),
-                         .z = w3_splat(l->z),
-                         .wo = { (double)l->wo[0], (double)l->wo[1], (double)l->wo[2] },
-                         .alpha_x = (double)l->surface.alpha_x,
-                         .alpha_y = (double)l->surface.alpha_y };
-}
-
 double shade_cap_error(const shade_point *p, vec3 wi, double sine)
 {
     double most = 0.0;
     for (int i = 0; i < shade_layers(p); ++i) {
-        const wide_layer layer = wide_layer_of(&p->layers[i]);
+        const wide_layer layer = sight_layer_of(&p->layers[i]);
         double local[3];
         to_local(&layer, w3_splat(wi), local);
         if (fabs(local[2]) < sine)
@@ -129,16 +119,6 @@ double shade_cap_error(const shade_point *p, vec3 wi, double sine)
         most = fmax(most, cap_error(&layer, local, sine));
     }
     return most;
-}
-
-bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
-{
-    wide_mask is_lit = 0, shape = 0;
-    for (int i = 0; i < shade_layers(p); ++i) {
-        const wide_layer layer = wide_layer_of(&p->layers[i]);
-        layer_sees(&layer, w3_splat(wi), sine, &is_lit, &shape);
-    }
-    return wide_any(shape);
 }
 
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)

@@ -11,6 +11,18 @@ typedef struct wide_layer {
     wide wo[3], alpha_x, alpha_y;
 } wide_layer;
 
+/* The same layer in every lane. */
+static inline wide_layer sight_layer_of(const shade_layer *l)
+{
+    return (
+        wide_layer){ .x = w3_splat(l->x),
+                     .y = w3_splat(l->y),
+                     .z = w3_splat(l->z),
+                     .wo = { wide_splat((double)l->wo[0]), wide_splat((double)l->wo[1]), wide_splat((double)l->wo[2]) },
+                     .alpha_x = wide_splat((double)l->surface.alpha_x),
+                     .alpha_y = wide_splat((double)l->surface.alpha_y) };
+}
+
 static inline wide smaller_alpha(const wide_layer *l)
 {
     return wide_smaller(l->alpha_x, l->alpha_y);

@@ -29,7 +29,7 @@ typedef struct tally {
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
-    double square; /* of the light of pixels, and what facets add to that in the mean */
+    double sum, square; /* of the light of pixels; square: and what facets add to that in the mean */
     double bounced, bounce_rays, sky_rays;
 } tally;
 
@@ -50,14 +50,22 @@ static glint_plan_pair *pair_of(tally *t, int material, int index)
     return &t->out->pairs[*known - 1U];
 }
 
-static void add_shape(tally *t, int entry, glint_plan_pair *pair, float evals, double part, double sparks)
+/* What caps are off is the mean over samples that take them and samples that do not; so is what they turn on and off.
+ */
+static void add_shape(tally *t, const survey_light *l, glint_plan_pair *pair, float evals, double part, double sparks)
 {
-    if (entry < 0)
+    if (l->shape < 0)
         return;
+    glint_plan_shape *const to = &pair->shapes[l->shape];
+    survey_sparks *const all = &t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + l->shape];
+    const double square = l->cap_off * l->cap_off * part, share = l->cap_share * l->cap_share;
     t->out->lights[pair->light].kind = GLINT_PLAN_LIGHT_SHAPE;
-    pair->shapes[entry].seen += evals;
-    pair->shapes[entry].part += (float)part;
-    t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + entry] += sparks;
+    to->seen += evals;
+    to->part += (float)part;
+    to->cap += (float)square;
+    to->last_cap += (float)(share * square);
+    all->whole += sparks;
+    all->last += share * sparks;
 }
 
 static void add_light(tally *t, const survey_pixel *from, const survey_light *l)
@@ -72,7 +80,7 @@ static void add_light(tally *t, const survey_pixel *from, const survey_light *l)
     t->square += sparks;
     pair->seen += evals;
     pair->shadow_rays += (float)l->shadow_rays;
-    add_shape(t, l->shape, pair, evals, part, sparks);
+    add_shape(t, l, pair, evals, part, sparks);
     if (!l->counts)
         return;
     const uint32_t bin = glint_plan_bin((float)l->lit);
@@ -89,6 +97,7 @@ static void join(glint_plan_range *all, glint_plan_range one)
 static void add_pixel(tally *t, const survey_pixel *from)
 {
     ++t->pixels;
+    t->sum += from->level;
     t->square += from->level * from->level;
     t->bounced += from->bounced;
     t->bounce_rays += from->bounce_rays;
@@ -126,10 +135,14 @@ static void end_pairs(survey *s, const tally *t)
         pair.seen *= inverse;
         pair.shadow_rays *= inverse;
         for (int k = 0; k < GLINT_PLAN_SHAPES; ++k) {
-            const double sparks = s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
-            pair.shapes[k].seen *= inverse;
-            pair.shapes[k].part *= inverse;
-            pair.shapes[k].sparks = t->square > 0.0 ? (float)(sparks / t->square) : 0.0F;
+            const survey_sparks *const sparks = &s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
+            glint_plan_shape *const to = &pair.shapes[k];
+            to->seen *= inverse;
+            to->part *= inverse;
+            to->cap *= inverse;
+            to->last_cap *= inverse;
+            to->sparks = t->square > 0.0 ? (float)(sparks->whole / t->square) : 0.0F;
+            to->last_sparks = t->square > 0.0 ? (float)(sparks->last / t->square) : 0.0F;
         }
         for (int b = 0; b < GLINT_PLAN_BINS; ++b) {
             pair.share[b] *= inverse;
@@ -182,6 +195,8 @@ static void end(survey *s, const tally *t, const survey_noise *noise, const prev
         return;
     end_pairs(s, t);
     end_samples(s, t, noise, o);
+    if (t->sum > 0.0)
+        to->contrast = (float)fmax(t->square * t->pixels / (t->sum * t->sum), 1.0);
     to->bounce_rays = (float)fmax(t->bounce_rays / t->pixels, 0.0);
     to->sky_rays = (float)(t->sky_rays / t->pixels);
     to->bounced = (float)sqrt(fmax(t->bounced / t->pixels, 0.0));

@@ -11,14 +11,19 @@ typedef struct survey_name {
     char text[56];
 } survey_name;
 
+/* Sum over the pixels of light^2 / (N p); last: see glint_plan_shape. */
+typedef struct survey_sparks {
+    double whole, last;
+} survey_sparks;
+
 typedef struct survey {
     glint_plan_summary summary;      /* points to the others */
     glint_material_options *options; /* base and coat of every material */
     glint_plan_material *materials;
     glint_plan_light *lights; /* those of the world, then surroundings where there are any */
     glint_plan_pair *pairs;
-    double *sparks;    /* of each pair's shapes: sum over the pixels of light^2 / (N p) */
-    uint32_t *pair_of; /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
+    survey_sparks *sparks; /* of each pair's shapes */
+    uint32_t *pair_of;     /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
     survey_name *light_names;
 } survey;
 

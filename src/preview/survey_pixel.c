@@ -46,8 +46,13 @@ static void look_at_samples(const world *w, const world *direct, int x, int y, s
 
 /* ---- lights at the first surface ---- */
 
+/* How a light is looked at. */
+typedef struct looking {
+    bool shadowed, as_cap; /* as_cap: wherever it can be one */
+} looking;
+
 /* What one light brings there; index light_count of the world: its surroundings. */
-static radiance look_at_light(const world *w, int index, bool shadowed, const vertex *v, const sampler *random,
+static radiance look_at_light(const world *w, int index, looking how, const vertex *v, const sampler *random,
                               direct_facets *facets, ray_counts *counts)
 {
     static const float all[3] = { 1.0F, 1.0F, 1.0F };
@@ -59,28 +64,37 @@ static radiance look_at_light(const world *w, int index, bool shadowed, const ve
     }
     light own = w->lights[index];
     world alone = *w;
-    own.unshadowed = !shadowed;
+    own.unshadowed = !how.shadowed;
     alone.lights = &own;
     alone.light_count = 1;
+    alone.cap_error = how.as_cap ? (double)INFINITY : 0.0;
     const direct_point point = { v, random, all, &sum, facets, 0 };
     add_direct_light(&alone, &point, DIM_SURVEY, counts);
     return sum;
 }
 
-/* In which entry of a pair's shapes an evaluation there belongs; negative: in none. */
-static int shape_of(const world *w, int index, const vertex *v)
+/* In which entry of a pair's shapes an evaluation there belongs, and what it would be as a cap. */
+static void note_shape(const world *w, const vertex *v, const sampler *random, survey_light *to)
 {
     light_view view;
-    if (index == w->light_count)
-        return -1;
-    const light *const l = &w->lights[index];
+    direct_facets facets = { 0 };
+    ray_counts none = { 0 };
+    to->shape = -1;
+    if (to->index == w->light_count)
+        return;
+    const light *const l = &w->lights[to->index];
     const double error = direct_cap_error(l, &v->point, v->hit.position, &view);
     if (!light_is_area(l) && (!light_see(l, v->hit.position, &view) || !(view.sine > 0.0) || error <= SHADE_CAP_ERROR))
-        return -1;
-    int k = 0;
-    while (k < GLINT_PLAN_SHAPES - 1 && error > ldexp(SHADE_CAP_ERROR, k))
-        ++k;
-    return k;
+        return;
+    to->shape = 0;
+    while (to->shape < GLINT_PLAN_SHAPES - 1 && error > ldexp(SHADE_CAP_ERROR, to->shape))
+        ++to->shape;
+    if (to->shape == GLINT_PLAN_SHAPES - 1 || !(to->level > 0.0))
+        return;
+    const radiance cap =
+        look_at_light(w, to->index, (looking){ .shadowed = true, .as_cap = true }, v, random, &facets, &none);
+    to->cap_off = level(cap.smooth) / to->level - 1.0;
+    to->cap_share = direct_cap_share(error, ldexp(SHADE_CAP_ERROR, to->shape));
 }
 
 /* Of many lights a render chooses some, and we look at those: as often as it evaluates them, each for those that it
@@ -89,18 +103,18 @@ static survey_light note_light(const world *w, chosen_light chosen, const vertex
 {
     direct_facets facets = { 0 }, unused = { 0 };
     ray_counts counts = { 0 }, none = { 0 };
-    const radiance seen = look_at_light(w, chosen.index, true, v, random, &facets, &counts);
+    const radiance seen = look_at_light(w, chosen.index, (looking){ .shadowed = true }, v, random, &facets, &counts);
     survey_light note = { .index = chosen.index,
-                          .shape = shape_of(w, chosen.index, v),
                           .probability = (double)chosen.probability,
                           .level = level(seen.smooth),
                           .glint_evals = counts.glint_evals,
                           .smooth_evals = counts.smooth_evals };
     if (chosen.index < w->light_count && counts.shadow_rays > 0) {
-        const radiance all = look_at_light(w, chosen.index, false, v, random, &unused, &none);
+        const radiance all = look_at_light(w, chosen.index, (looking){ .shadowed = false }, v, random, &unused, &none);
         note.shadow_rays = counts.shadow_rays;
         note.is_blocked = note.level < level(all.smooth);
     }
+    note_shape(w, v, random, &note);
     const double tiles = (double)w->glint_side * (double)w->glint_side;
     note.counts = facets.count > 0.0F;
     note.lit = (double)facets.count * tiles * (double)facets.lit_probability;

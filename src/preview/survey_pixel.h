@@ -9,6 +9,8 @@
 typedef struct survey_light {
     int index;          /* of the world's lights; their number: surroundings */
     int shape;          /* entry of a pair's shapes; negative: it is no shape there */
+    double cap_off;     /* of the light, relative, that a cap in place of the shape changes */
+    double cap_share;   /* of the samples that take it where the plan allows caps up to this entry */
     double probability; /* with which it was chosen among many */
     double level;       /* of its light, without single facets */
     bool counts;        /* single facets, of which so many are lit in the pixel, N p: */

@@ -37,11 +37,12 @@ static int by_cost(const void *a, const void *b)
     return cost != 0 ? cost : (x->error > y->error) - (x->error < y->error);
 }
 
+/* Errors within a thousandth of each other are the same: what costs less stands for them. */
 static void mark_front(study_setting *settings, int count)
 {
     double nearest = (double)INFINITY;
     for (int i = 0; i < count; ++i) {
-        settings[i].on_front = settings[i].error < nearest;
+        settings[i].on_front = settings[i].error < 0.999 * nearest;
         nearest = fmin(nearest, settings[i].error);
     }
 }

@@ -224,8 +224,9 @@ static void check_samples(study_run *run, const size_of_study *size, picture_err
     static char names[IMAGES_SCENES][SAMPLES][48];
     const int last = size->most - 1;
     for (int k = 0; k < IMAGES_SCENES; k++)
-        study_check(run, found[k][last].error < found[k][1].error / 2.0, "%s: 4 samples are %.3f off, %d samples %.3f",
-                    images_names[k], found[k][1].error, samples_of[last], found[k][last].error);
+        study_check(run, found[k][last].error < found[k][1].error / 2.0,
+                    "%s: the error is %.2f of the mean light with 4 samples a pixel, %.3f with %d", images_names[k],
+                    found[k][1].error, found[k][last].error, samples_of[last]);
     study_setting settings[SAMPLES];
     for (int i = 0; i < size->most; i++) {
         snprintf(names[0][i], sizeof names[0][i], "%d sample%s", samples_of[i], samples_of[i] == 1 ? "" : "s");
@@ -258,7 +259,7 @@ static void check_accuracies(study_run *run, picture_error (*found)[ACCURACIES +
             if (found[k][i].error / accuracies[i] > found[k][worst].error / accuracies[worst])
                 worst = i;
         }
-        study_check(run, share <= 1.0, "%s: --accuracy %g leaves out most for its budget, %.4f ± %.4f of the light",
+        study_check(run, share <= 1.0, "%s: --accuracy %g leaves out most for its budget, %.4f ± %.4f of the picture",
                     images_names[k], accuracies[worst], found[k][worst].error, found[k][worst].bar);
     }
     study_setting settings[ACCURACIES + 1];
@@ -291,6 +292,10 @@ static void measure(study_run *run)
     study_end_table(run);
     if (stopped(run))
         return;
+    study_note(run,
+               "near-sparse: a plane near by, black but for a few sparks, under a lamp; far-dense: one that runs to "
+               "the horizon with millions of flakes, under the sun; area-lit: a ball under a square lamp; layered: a "
+               "ball with glints below and in its coat, under it");
     check_samples(run, &size, samples);
     check_accuracies(run, budgets);
 }

@@ -230,7 +230,7 @@ static void measure(study_run *run)
                 worst[OURS_5].worst_ks);
     for (int k = PUBLISHED; k <= CLAMPED; k++)
         study_check(run, worst[k].worst_mean > 50.0 * worst[OURS_5].worst_mean,
-                    "%s: the mean is up to %.0f %% off, libglint's %.0f times less", samplers[k].name,
+                    "%s: the mean is up to %.0f %% off, libglint's %.1e times less", samplers[k].name,
                     100.0 * worst[k].worst_mean, worst[k].worst_mean / worst[OURS_5].worst_mean);
     study_note(run, "libglint's draw takes %.0f ns, a published one %.0f ns, an exact one %.0f ns", cost[OURS_5],
                cost[CLAMPED], cost[EXACT]);

@@ -22,7 +22,7 @@ static void what_is_left_out_stays_within_the_budget(void **state)
     (void)state;
     static const double budgets[] = { 0.02, 0.2 };
     static const int samples[] = { 4, 64 };
-    int caps = 0;
+    float caps = 0.0F;
     for (int i = 0; i < plan_case_count(); ++i) {
         scene_camera camera;
         preview_options o;
@@ -40,11 +40,11 @@ static void what_is_left_out_stays_within_the_budget(void **state)
                 /* What was foreseen comes from a few hundred pixels: seldom too little, and then not by much. */
                 if (!(error <= FORESEEN * (double)foreseen.error + 1e-3))
                     fail_msg("%s: error %g, foreseen %g", plan_case_name(i), error, (double)foreseen.error);
-                /* A lamp of .06 m at .55 m is off by about .02 as a cap: too much for the one budget, not for the
-                 * other. */
+                /* A lamp of .06 m at .55 m is off by no more than .02 as a cap: for the larger budget, and for no
+                 * smaller part with it, its middle stands for it. */
                 if (strcmp(plan_case_name(i), "lamp") == 0) {
-                    assert_int_equal(foreseen.cap_error > 0.0F, budgets[j] > 0.1);
-                    caps += foreseen.cap_error > 0.0F;
+                    assert_true(j == 0 || (foreseen.cap_error > 0.0F && foreseen.cap_error >= caps));
+                    caps = foreseen.cap_error;
                 }
                 image_free(&less);
             }
@@ -52,7 +52,7 @@ static void what_is_left_out_stays_within_the_budget(void **state)
         }
         scene_free(&s);
     }
-    assert_int_equal(caps, 2);
+    assert_true(caps > 0.0F);
 }
 
 /* ---- no budget ---- */

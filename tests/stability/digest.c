@@ -1,9 +1,11 @@
-/* Prints one hash for each model of what the library gives for a large sweep of queries, and one for each vector width
- * of the kernels of counting, lobes and the dictionary, with traps for floating-point exceptions on. compilers.sh runs
- * it as it was built by several compilers at several levels of optimisation: every build must print the same. */
+/* Prints one hash for each model of what the library gives for a large sweep of queries, one for each vector width
+ * of the kernels of counting, lobes, lights and the dictionary, and one of the previewer's own numbers, with traps for
+ * floating-point exceptions on. compilers.sh runs it as it was built by several compilers at several levels of
+ * optimisation: every build must print the same. */
 #define _GNU_SOURCE
 #include "traps.h"
 
+#include "digest_preview.h"
 #include "exact_inputs.h"
 #include "model/area_kernel.h"
 #include "model/counting_kernel.h"
@@ -22,11 +24,15 @@ static glint_area_light exact_light(uint64_t *random)
     for (int k = 0; k < 3; k++) {
         l.half_x[k] = size * (float)random_between(random, -0.5, 0.5);
         l.half_y[k] = size * (float)random_between(random, -0.5, 0.5);
-        l.corners[0][k] = l.center[k];
-        l.corners[1][k] = l.center[k] + l.half_x[k];
-        l.corners[2][k] = l.center[k] + l.half_y[k];
     }
-    l.corner_count = 3;
+    /* A part of an octagon. */
+    static const float ring[GLINT_MAX_CORNERS][2] = { { 1.0F, 0.0F },    { 0.75F, 0.75F }, { 0.0F, 1.0F },
+                                                      { -0.75F, 0.75F }, { -1.0F, 0.0F },  { -0.75F, -0.75F },
+                                                      { 0.0F, -1.0F },   { 0.75F, -0.75F } };
+    l.corner_count = 3U + (uint32_t)(random_bits(random) % 6);
+    for (uint32_t i = 0; i < l.corner_count; i++)
+        for (int k = 0; k < 3; k++)
+            l.corners[i][k] = l.center[k] + ring[i][0] * l.half_x[k] + ring[i][1] * l.half_y[k];
     return l;
 }
 
@@ -223,6 +229,11 @@ static void fill_lit_point(area_crowd *p, int i, uint64_t *random)
     p->alpha_y[i] = i % 2 ? p->alpha_x[i] : ldexpf(1.0F, -(int)(random_bits(random) % 13));
     p->total_area[i] = i % 3 ? 0.0F : 1.25F;
     p->hidden[i] = i % 4 ? 0.0F : (float)random_uniform(random);
+    const uint32_t corners = l.kind == GLINT_AREA_POLYGON ? l.corner_count : 0U;
+    p->corner_count[i] = (int32_t)corners;
+    for (uint32_t n = 0; n < GLINT_MAX_CORNERS; n++)
+        for (int k = 0; k < 3; k++)
+            p->corner[n][k][i] = corners ? l.corners[n < corners ? n : 0U][k] : 0.0F;
     p->kind[i] = (int32_t)l.kind;
     p->two_sided[i] = i % 5 != 0;
     p->size[i] = l.kind == GLINT_AREA_SPHERE ? l.radius : l.solid_angle_sr;
@@ -238,6 +249,7 @@ static uint64_t hash_lights(uint64_t hash, size_t lanes)
         float left[LOBE_MOST];
         o.distribution = (glint_distribution)(round % 2);
         o.fresnel = (glint_fresnel)(round / 2 % 3);
+        p.most_corners = GLINT_MAX_CORNERS;
         for (int i = 0; i < LOBE_MOST; i++)
             fill_lit_point(&p, i, &random);
         area_kernel_widest(lanes)(&o, &p, LOBE_MOST, 1, &lit, left);
@@ -317,5 +329,8 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof(MODELS) / sizeof(MODELS[0]); i++)
         print_model(MODELS[i].model);
     print_kernels();
+#if defined(DIGEST_PREVIEW)
+    digest_print_preview();
+#endif
     return 0;
 }
