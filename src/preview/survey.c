@@ -252,9 +252,9 @@ static void look_at_all(tally *t, const preview_options *o, const survey_place *
         add_pixel(t, &pixels[i]);
 }
 
-static bool look(tally *t, const preview_options *o, int columns, int rows, report *r)
+static bool look(tally *t, const preview_options *o, bool with_noise, int columns, int rows, report *r)
 {
-    survey_noise noise;
+    survey_noise noise = { .samples = 1, .fall = 1.0 };
     const int count = columns * rows;
     survey_place *const places = calloc((size_t)count, sizeof *places);
     survey_pixel *const pixels = calloc((size_t)count, sizeof *pixels);
@@ -268,7 +268,7 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
     const survey_noise_limits limits = { .samples = noise_samples(o),
                                          .enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0,
                                          .threads = o->threads };
-    done = done && survey_noise_measure(t->world, places, count, &limits, &noise, r);
+    done = done && (!with_noise || survey_noise_measure(t->world, places, count, &limits, &noise, r));
     free(places);
     free(pixels);
     if (done)
@@ -276,14 +276,15 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
     return done;
 }
 
-bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r)
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, bool with_noise, survey *out,
+                 report *r)
 {
     tally t = { .world = w, .sights = sights, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
     int columns, rows;
     choose_grid(w, o, &columns, &rows);
     if (!survey_begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
         return false;
-    if (look(&t, o, columns, rows, r))
+    if (look(&t, o, with_noise, columns, rows, r))
         return true;
     survey_free(out);
     return false;
