@@ -105,26 +105,21 @@ void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *li
     const int is_exact = o->area_light_method == GLINT_AREA_LIGHT_EXACT;
     area_crowd crowd;
     float left[LOBE_MOST];
-    if (!is_exact) {
-        /* What is left of a vector repeats the last. */
-        const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
-        int has_polygons = 0;
-        for (size_t i = 0; i < count; i++) {
-            gather(&q[i], i, &crowd);
-            has_polygons |= q[i].area_light->kind == GLINT_AREA_POLYGON;
-        }
-        for (size_t i = count; i < padded; i++)
-            gather(&q[count - 1], i, &crowd);
-        crowd.most_corners = 0;
-        for (size_t i = 0; has_polygons && i < padded; i++)
-            gather_corners(&q[i < count ? i : count - 1], i, &crowd);
-        area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
-    }
+    /* What is left of a vector repeats the last. */
+    const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
+    int has_polygons = 0;
     for (size_t i = 0; i < count; i++) {
-        if (is_exact) {
-            finish(&q[i], 1.0F, counts, lit, i);
-        } else if (left[i] > 0.0F) {
-            finish(&q[i], left[i], counts, lit, i);
-        }
+        gather(&q[i], i, &crowd);
+        has_polygons |= q[i].area_light->kind == GLINT_AREA_POLYGON;
     }
+    for (size_t i = count; i < padded; i++)
+        gather(&q[count - 1], i, &crowd);
+    crowd.most_corners = 0;
+    /* Squares of polygons are for the fast integral. */
+    for (size_t i = 0; has_polygons && !is_exact && i < padded; i++)
+        gather_corners(&q[i < count ? i : count - 1], i, &crowd);
+    area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
+    for (size_t i = 0; i < count; i++)
+        if (left[i] > 0.0F)
+            finish(&q[i], left[i], counts, lit, i);
 }
