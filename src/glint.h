@@ -105,7 +105,7 @@ typedef enum glint_facet_hash {
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
 } glint_facet_hash;
 
-/* What textures say about one point of the surface; for layered, about the base. */
+/* What textures say about one point of the surface; for layered, about the base. Evaluation clamps to the ranges. */
 typedef struct glint_surface {
     float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
     float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */
@@ -120,7 +120,8 @@ typedef enum glint_area_light_method {
     /* A few points of a light that is small beside the lobe; of others linearly transformed cosines, or, where alpha_x
      * and alpha_y differ, as exact. */
     GLINT_AREA_LIGHT_FAST = 0,
-    GLINT_AREA_LIGHT_EXACT /* adaptive quadrature, error below 1 % */
+    GLINT_AREA_LIGHT_EXACT /* points where they leave about 1e-6, adaptive quadrature with an error below 1 % elsewhere
+                            */
 } glint_area_light_method;
 
 /* The upper layer of a layered material at one point. */
