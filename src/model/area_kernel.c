@@ -44,9 +44,10 @@ static plain_corners corners_of(const area_crowd *c, size_t i)
     return corners;
 }
 
-static light_parts parts_of(const area_lobe *l, const plain_query *q, const area_crowd *crowd, size_t i)
+static light_parts parts_of(const area_lobe *l, const plain_query *q, const plain_limits *most, const area_crowd *crowd,
+                            size_t i)
 {
-    plain_light light = plain_light_of(l, q);
+    plain_light light = plain_light_of(l, q, most);
     light_parts p;
     p.quad_count = 0;
     const vmask is_polygon = equal_i(q->kind, splat_i(GLINT_AREA_POLYGON));
@@ -136,13 +137,14 @@ void JOIN(area_kernel_, GLINT_LANES)(const glint_material_options *o, const area
                                      lobe_lit *lit, float left[LOBE_MOST])
 {
     const ndf_kind kind = lobe_kind(o);
+    const plain_limits most = plain_limits_of(o);
     for (size_t i = 0; i < count; i += GLINT_LANES) {
         const plain_query q = query_of(crowd, i);
         const lobe_query *const s = &q.lobe;
         const area_lobe lobe =
             area_lobe_of(kind == NDF_GGX, o->fresnel == GLINT_FRESNEL_SCHLICK, s->wo,
                          s->wo.z + ndf_masked_of(kind, s->alpha_x, s->alpha_y, s->wo), s->alpha_x, s->alpha_y);
-        const light_parts parts = parts_of(&lobe, &q, crowd, i);
+        const light_parts parts = parts_of(&lobe, &q, &most, crowd, i);
         const vfloat zero = splat(0.0F);
         const int has_base = any(less(zero, s->diffuse[0]) | less(zero, s->diffuse[1]) | less(zero, s->diffuse[2]));
         plain_sums sums;

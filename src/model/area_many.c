@@ -115,23 +115,18 @@ void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *li
     const int is_exact = o->area_light_method == GLINT_AREA_LIGHT_EXACT;
     area_crowd crowd;
     float left[LOBE_MOST];
-    if (!is_exact) {
-        /* What is left of a vector repeats the last. */
-        const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
-        crowd.most_corners = most_corners(q, count);
-        for (size_t i = 0; i < padded; i++) {
-            const model_query *const one = &q[i < count ? i : count - 1];
-            gather(one, i, &crowd);
-            if (crowd.most_corners > 0)
-                gather_corners(one, i, &crowd);
-        }
-        area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
+    /* What is left of a vector repeats the last. */
+    const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
+    /* Squares of polygons are for the fast integral. */
+    crowd.most_corners = is_exact ? 0 : most_corners(q, count);
+    for (size_t i = 0; i < padded; i++) {
+        const model_query *const one = &q[i < count ? i : count - 1];
+        gather(one, i, &crowd);
+        if (crowd.most_corners > 0)
+            gather_corners(one, i, &crowd);
     }
-    for (size_t i = 0; i < count; i++) {
-        if (is_exact) {
-            finish(&q[i], 1.0F, counts, lit, i);
-        } else if (left[i] > 0.0F) {
+    area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
+    for (size_t i = 0; i < count; i++)
+        if (left[i] > 0.0F)
             finish(&q[i], left[i], counts, lit, i);
-        }
-    }
 }

@@ -109,9 +109,10 @@ static void store_3(float to[3][AREA_ROOM], vfloat3 v)
     to[2][0] = v.z;
 }
 
-static plain_light take_one(const area_lobe *l, const plain_query *plain, area_nodes *n)
+static plain_light take_one(const model_query *q, const area_lobe *l, const plain_query *plain, area_nodes *n)
 {
-    const plain_light p = plain_light_of(l, plain);
+    const plain_limits most = plain_limits_of(&q->material->options);
+    const plain_light p = plain_light_of(l, plain, &most);
     n->is_bent = 0;
     n->count = 1;
     store_3(n->parts.middle, p.middle);
@@ -133,8 +134,8 @@ float area_eval_plain(const model_query *q, area_value *value)
                      s->wo.z + ndf_masked_of(lobe_kind(o), s->alpha_x, s->alpha_y, s->wo), s->alpha_x, s->alpha_y);
     area_nodes nodes;
     begin_nodes(q, &l, &nodes);
-    const plain_light p =
-        q->area_light->kind == GLINT_AREA_POLYGON ? take_polygon(q, &nodes) : take_one(&l, &plain, &nodes);
+    const int is_polygon = q->area_light->kind == GLINT_AREA_POLYGON && o->area_light_method != GLINT_AREA_LIGHT_EXACT;
+    const plain_light p = is_polygon ? take_polygon(q, &nodes) : take_one(q, &l, &plain, &nodes);
     if (p.rule == PLAIN_LEFT)
         return 1.0F;
     const plain_sums sums = p.rule == PLAIN_DARK ? plain_no_sums() : sums_of(&nodes, p.rule);

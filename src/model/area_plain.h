@@ -54,6 +54,24 @@ typedef struct plain_light {
 #define PLAIN_FADES 2.1F
 #define PLAIN_FINEST 2.4F
 
+/* How far each level goes. */
+typedef struct plain_limits {
+    float coarse, middle, fine, fades, finest;
+} plain_limits;
+
+static inline plain_limits plain_limits_fast(void)
+{
+    return (plain_limits){ PLAIN_COARSE, PLAIN_MIDDLE, PLAIN_FINE, PLAIN_FADES, PLAIN_FINEST };
+}
+
+/* Where the exact integral is asked for: as far as the rules leave about 1e-6 of a pole, since what one of degree d
+ * leaves falls by the d + 1st power of the bend. The quadrature leaves more. */
+static inline plain_limits plain_limits_of(const glint_material_options *o)
+{
+    return o->area_light_method == GLINT_AREA_LIGHT_EXACT ? (plain_limits){ 0.21F, 0.38F, 0.8F, 1.15F, 1.3F }
+                                                          : plain_limits_fast();
+}
+
 /* ---- where the light is ---- */
 
 /* |v| < 1e15 in every part, without comparing what may be no number. */
@@ -115,11 +133,11 @@ static inline vfloat plain_bend(const area_lobe *l, vfloat3 middle, vfloat size,
     return max_f(plain_bend_of_density(l, middle, size, within), max_f(of_masking, of_distance));
 }
 
-static inline vint plain_level(vfloat bend)
+static inline vint plain_level(vfloat bend, const plain_limits *most)
 {
-    const vint finest = choose_i(less(bend, splat(PLAIN_FINE)), splat_i(CUBATURE_FINE), splat_i(CUBATURE_FINEST));
-    const vint fine = choose_i(less(bend, splat(PLAIN_MIDDLE)), splat_i(CUBATURE_MIDDLE), finest);
-    return choose_i(less(bend, splat(PLAIN_COARSE)), splat_i(CUBATURE_COARSE), fine);
+    const vint finest = choose_i(less(bend, splat(most->fine)), splat_i(CUBATURE_FINE), splat_i(CUBATURE_FINEST));
+    const vint fine = choose_i(less(bend, splat(most->middle)), splat_i(CUBATURE_MIDDLE), finest);
+    return choose_i(less(bend, splat(most->coarse)), splat_i(CUBATURE_COARSE), fine);
 }
 
 /* Of a light that bends the lobe so much, up to most. */
@@ -128,7 +146,7 @@ static inline vfloat plain_share_left(vfloat bend, float fades, float most)
     return min_f(max_f((bend - fades) * (1.0F / (most - fades)), splat(0.0F)), splat(1.0F));
 }
 
-static inline plain_light plain_light_of(const area_lobe *l, const plain_query *q)
+static inline plain_light plain_light_of(const area_lobe *l, const plain_query *q, const plain_limits *most)
 {
     const vfloat zero = splat(0.0F), one = splat(1.0F);
     const vfloat3 none = { zero, zero, zero }, up = { zero, zero, one };
@@ -164,13 +182,13 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
                  bend = plain_bend(l, p.middle, sqrt_f(max_f(u2, v2)), sqrt_f(u2 + v2), height);
     const vmask is_away = is_flat & equal_i(q->two_sided, splat_i(0)) & less(zero, facing);
     const vmask is_dark = plain & (is_away | less(p.middle.z + height, splat(-1e-4F)));
-    plain = plain & less(height, p.middle.z) & less(bend, splat(PLAIN_FINEST)) & ~is_dark;
+    plain = plain & less(height, p.middle.z) & less(bend, splat(most->finest)) & ~is_dark;
 
     const vint shape = choose_i(is_flat & ~is_disk, splat_i(CUBATURE_SQUARE * CUBATURE_LEVELS),
                                 splat_i(CUBATURE_DISK * CUBATURE_LEVELS));
     const vint rule = choose_i(is_dark, splat_i(PLAIN_DARK), splat_i(PLAIN_LEFT));
-    p.rule = choose_i(plain, shape + plain_level(bend), rule);
-    p.left = choose(plain, plain_share_left(bend, PLAIN_FADES, PLAIN_FINEST), choose(is_dark, zero, one));
+    p.rule = choose_i(plain, shape + plain_level(bend, most), rule);
+    p.left = choose(plain, plain_share_left(bend, most->fades, most->finest), choose(is_dark, zero, one));
     p.size = abs_f(facing) * choose(is_flat & ~is_disk, splat(4.0F), splat(MATH_PI));
     return p;
 }

@@ -72,8 +72,10 @@ static inline plain_light plain_polygon_rule(const plain_shape *s, vint count, v
                                              vfloat bend_of_slim, vmask *from_middle)
 {
     const vfloat zero = splat(0.0F), reach2 = s->reach * s->reach;
-    *from_middle = less_i(splat_i(4), count) & (less_i(plain_level(bend_of_slim), plain_level(bend_of_wide)) |
-                                                ~less(bend_of_wide, splat(PLAIN_FADES)));
+    const plain_limits most = plain_limits_fast();
+    *from_middle =
+        less_i(splat_i(4), count) & (less_i(plain_level(bend_of_slim, &most), plain_level(bend_of_wide, &most)) |
+                                     ~less(bend_of_wide, splat(PLAIN_FADES)));
     const vfloat bend = choose(*from_middle, bend_of_slim, bend_of_wide);
     vmask plain = s->usable & less(s->reach, splat(1.0F)) & less(splat(1e-8F), s->reach) &
                   less(1e-4F * (reach2 * reach2), s->facing * s->facing);
@@ -81,7 +83,7 @@ static inline plain_light plain_polygon_rule(const plain_shape *s, vint count, v
     const vmask is_dark = plain & (is_away | less(s->middle.z + s->height, splat(-1e-4F)));
     plain = plain & less(s->height, s->middle.z) & less(bend, splat(PLAIN_FINEST)) & ~is_dark;
     const vint rule = choose_i(is_dark, splat_i(PLAIN_DARK), splat_i(PLAIN_LEFT));
-    return (plain_light){ .rule = choose_i(plain, splat_i(PLAIN_POLYGON) + plain_level(bend), rule),
+    return (plain_light){ .rule = choose_i(plain, splat_i(PLAIN_POLYGON) + plain_level(bend, &most), rule),
                           .left = choose(plain, plain_share_left(bend, PLAIN_FADES, PLAIN_FINEST),
                                          choose(is_dark, zero, splat(1.0F))) };
 }

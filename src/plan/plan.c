@@ -171,7 +171,7 @@ static void check_summary(complaint *c, const glint_plan_summary *s)
 }
 
 /* What a material can say at most: its look-ups, colours, layers, anisotropy, textures, normal maps and alpha. */
-enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 4, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
+enum { MOST_PER_MATERIAL = 7, MOST_PER_PAIR = 5, MOST_PER_LIGHT = 2, MOST_OF_ALL = 3 };
 
 static glint_plan *make(const glint_plan_summary *s)
 {

@@ -1,5 +1,6 @@
 /* How the light of each shape is found on each material: as if all of it came from its middle or by a fit, where what
- * that is off by fits the budget, and by an exact integral else.
+ * that is off by fits the budget, and by an exact integral else. Where few points of a light know its integral, both
+ * are those points.
  *
  * What is off by an error e is off by e of the light. It also turns facets on and off: of the N p that are lit e N p on
  * average, each of which is 1 / (N p) of the light, so that it varies by e / (N p) more. Of few lit facets that is far
@@ -51,11 +52,16 @@ static double charge(const glint_plan *p, loss l)
     return l.variance + (p->is_strict ? l.excess : 0.0);
 }
 
-/* What shapes come to that are no caps. */
-static glint_plan_shape left_to_fit(const glint_plan *p, const glint_plan_pair *pair)
+/* Lights of which a cap is off by up to .16 bend the lobe by less than half, of which a few points leave no more than
+ * this of light and facets (PLAIN_COARSE in model/area_plain.h); those of the exact integral next to nothing. */
+#define POINTS_ERROR 2e-5
+enum { FIT_ENTRY = GLINT_PLAN_SHAPES - 1 };
+
+/* What shapes come to that are neither caps nor left to the fit. */
+static glint_plan_shape left_to_points(const glint_plan *p, const glint_plan_pair *pair)
 {
     glint_plan_shape sum = { 0.0F };
-    for (int k = p->caps; k < GLINT_PLAN_SHAPES; k++) {
+    for (int k = p->caps; k < FIT_ENTRY; k++) {
         sum.seen += pair->shapes[k].seen;
         sum.part += pair->shapes[k].part;
         sum.sparks += pair->shapes[k].sparks;
@@ -63,12 +69,18 @@ static glint_plan_shape left_to_fit(const glint_plan *p, const glint_plan_pair *
     return sum;
 }
 
+static loss loss_of_points(const glint_plan *p, const glint_plan_pair *pair)
+{
+    const glint_plan_shape s = left_to_points(p, pair);
+    return loss_of(p, POINTS_ERROR * POINTS_ERROR * (double)s.part, POINTS_ERROR, (double)s.sparks);
+}
+
 static loss loss_of_fit(const glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_plan_material *const m = &p->summary.materials[pair->material];
-    const glint_plan_shape s = left_to_fit(p, pair);
+    const glint_plan_shape *const s = &pair->shapes[FIT_ENTRY];
     const double error = worse(plan_ltc_errors, m);
-    return loss_of(p, error * error * (double)s.part, worse(plan_ltc_flips, m), (double)s.sparks);
+    return loss_of(p, error * error * (double)s->part, worse(plan_ltc_flips, m), (double)s->sparks);
 }
 
 /* ---- caps ---- */
@@ -97,7 +109,7 @@ static loss loss_of_caps(const glint_plan *p, const glint_plan_pair *pair)
 /* Round lights are caps in many places whatever the plan says; what is left by rounding is none. */
 static float seen_as_caps(const glint_plan *p, const glint_plan_pair *pair)
 {
-    const float seen = pair->seen - left_to_fit(p, pair).seen;
+    const float seen = pair->seen - left_to_points(p, pair).seen - pair->shapes[FIT_ENTRY].seen;
     return seen > 1e-5F * pair->seen ? seen : 0.0F;
 }
 
@@ -110,8 +122,9 @@ static void add_up_fits(glint_plan *p)
         const glint_plan_pair *const pair = &p->summary.pairs[i];
         if (!is_shape(p, pair))
             continue;
-        p->materials[pair->material].fit_variance += charge(p, loss_of_fit(p, pair));
-        p->materials[pair->material].fit_evaluations += (double)left_to_fit(p, pair).seen;
+        p->materials[pair->material].fit_variance +=
+            charge(p, loss_of_fit(p, pair)) + charge(p, loss_of_points(p, pair));
+        p->materials[pair->material].fit_evaluations += (double)pair->shapes[FIT_ENTRY].seen;
     }
 }
 
@@ -122,9 +135,9 @@ static plan_material *best_for_fit(glint_plan *p, double most_variance)
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < p->summary.material_count; i++) {
         plan_material *const m = &p->materials[i];
-        const double price = m->fit_variance / fmax(m->fit_evaluations, 1e-30);
-        if (m->method == GLINT_AREA_LIGHT_FAST || !(m->fit_variance < most_variance) || !(price < least) ||
-            is_stretched(&p->summary.materials[i]))
+        const double price = m->fit_variance / m->fit_evaluations;
+        if (m->method == GLINT_AREA_LIGHT_FAST || !(m->fit_evaluations > 0.0) || !(m->fit_variance < most_variance) ||
+            !(price < least) || is_stretched(&p->summary.materials[i]))
             continue;
         least = price;
         best = m;
@@ -186,13 +199,30 @@ static void decide_caps(glint_plan *p, const glint_plan_pair *pair)
                 name_of(&p->summary.lights[pair->light]), p->caps > 0 ? cap_error(p->caps - 1) : cap_error(0));
 }
 
+static void decide_points(glint_plan *p, const glint_plan_pair *pair)
+{
+    glint_decision d = {
+        GLINT_EFFECT_LIGHT, (int32_t)pair->material, (int32_t)pair->light, 1, "points", "", 0.0F, 0.0F, 0.0F
+    };
+    const float seen = left_to_points(p, pair).seen;
+    const int is_fast = p->materials[pair->material].method == GLINT_AREA_LIGHT_FAST;
+    const loss l = is_fast ? loss_of_points(p, pair) : (loss){ 0.0, 0.0 };
+    if (!(seen > 0.0F))
+        return;
+    p->excess += l.excess;
+    d.ns_per_sample = seen * plan_costs[PLAN_COST_LTC];
+    d.error = (float)sqrt(l.variance);
+    plan_decide(p, d, "%s is so small that a few points of it know its integral",
+                name_of(&p->summary.lights[pair->light]));
+}
+
 static void decide_shape(glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_plan_material *const m = &p->summary.materials[pair->material];
     const char *const name = name_of(&p->summary.lights[pair->light]);
     const loss l = loss_of_fit(p, pair);
     const double error = sqrt(l.variance);
-    const float seen = left_to_fit(p, pair).seen;
+    const float seen = pair->shapes[FIT_ENTRY].seen;
     glint_decision d = {
         GLINT_EFFECT_LIGHT, (int32_t)pair->material, (int32_t)pair->light, 1, "quadrature", "", 0.0F, 0.0F, 0.0F
     };
@@ -242,6 +272,7 @@ void plan_lights(glint_plan *p)
     for (uint32_t i = 0; i < p->summary.pair_count; i++)
         if (is_shape(p, &p->summary.pairs[i])) {
             decide_caps(p, &p->summary.pairs[i]);
+            decide_points(p, &p->summary.pairs[i]);
             decide_shape(p, &p->summary.pairs[i]);
         }
 }
