@@ -105,7 +105,7 @@ typedef enum glint_facet_hash {
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
 } glint_facet_hash;
 
-/* What textures say about one point of the surface; for layered, about the base. */
+/* What textures say about one point of the surface; for layered, about the base. Evaluation clamps to the ranges. */
 typedef struct glint_surface {
     float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
     float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */

@@ -55,7 +55,8 @@ static int take_round_or_square(const area_case *c, subject *s)
                             .half_x = from(l->half_x),
                             .half_y = from(l->half_y),
                             .size = l->kind == GLINT_AREA_SPHERE ? l->radius : l->solid_angle_sr };
-    s->light = plain_light_of(&s->lobe, &q);
+    const plain_limits most = plain_limits_fast();
+    s->light = plain_light_of(&s->lobe, &q, &most);
     s->shape = l->kind == GLINT_AREA_RECTANGLE ? SQUARE : DISK;
     const plain_light *p = &s->light;
     const float u2 = dot_3(p->u, p->u), v2 = dot_3(p->v, p->v), height = fabsf(p->u.z) + fabsf(p->v.z);

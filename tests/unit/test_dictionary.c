@@ -135,6 +135,32 @@ static void quantiles_invert_the_integral(void **state)
     }
 }
 
+/* Of the logarithm to base 4 of how many facets a cell has, over cells: its mean, and the deviation that is asked for,
+ * eight of which lie between the ends of what a cell may have. Normal: the fourth moment is 3. */
+static void density_varies_from_cell_to_cell_as_asked(void **state)
+{
+    (void)state;
+    enum { CELLS = 1 << 18 };
+    const float mean = 0.5F * DICTIONARY_LEVELS, deviation = mean / 8.0F;
+    const dictionary_surface s = { &table, { NDF_GGX, 0.4F, 0.4F }, 1.0F, deviation };
+    uint64_t random = 21;
+    moments log4 = { 0 };
+    double fourth = 0.0;
+    for (int i = 0; i < CELLS; i++) {
+        const double x = (double)dictionary_cell_log4(&s, (uint32_t)random_bits(&random), mean, 1.0F);
+        moments_add(&log4, x);
+        fourth += pow((x - (double)mean) / (double)deviation, 4.0) / CELLS;
+    }
+    const double found = sqrt(moments_variance(&log4)) / (double)deviation;
+    printf("log4 of the density: mean %.4f of %.4f, deviation %.4f of that asked for, fourth moment %.3f\n", log4.mean,
+           (double)mean, found, fourth);
+    /* Five standard errors of a normal sample: 1 / sqrt(n), 1 / sqrt(2 n), sqrt(96 / n). The quantile is off by .0008
+     * deviations near the middle, and by .023 beyond four, where it ends. */
+    assert_true(fabs(log4.mean - (double)mean) < (5.0 / sqrt(CELLS) + 0.0008) * (double)deviation);
+    assert_true(fabs(found - 1.0) < 5.0 / sqrt(2.0 * CELLS) + 0.0008);
+    assert_true(fabs(fourth - 3.0) < 5.0 * sqrt(96.0 / CELLS) + 4.0 * 0.0008 * 3.0);
+}
+
 /* The average over cells is the surface's own distribution at every slope, whatever the number of facets. Seeds are
  * independent, cells of one seed share its marginals: the error is that of the mean over seeds. */
 static void mean_over_cells_is_the_target(void **state)
@@ -340,6 +366,7 @@ int main(void)
         cmocka_unit_test(every_marginal_integrates_to_one),
         cmocka_unit_test(lobes_double_from_level_to_level_and_stay),
         cmocka_unit_test(quantiles_invert_the_integral),
+        cmocka_unit_test(density_varies_from_cell_to_cell_as_asked),
         cmocka_unit_test(mean_over_cells_is_the_target),
         cmocka_unit_test(every_width_gives_the_same_cells),
         cmocka_unit_test(weights_sum_to_one_and_cells_fit),
