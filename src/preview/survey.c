@@ -52,15 +52,16 @@ static glint_plan_pair *pair_of(tally *t, int material, int index)
     return &t->out->pairs[*known - 1U];
 }
 
-/* What caps are off is the mean over samples that take them and samples that do not; so is what they turn on and off.
- */
+/* What caps are off is the mean over samples that take them and samples that do not, and so is what they turn on and
+ * off: of n samples of which each takes one with the chance c the square of the share is c^2 + c (1 - c) / n. */
 static void add_shape(tally *t, const survey_light *l, glint_plan_pair *pair, float evals, double part, double sparks)
 {
     if (l->shape < 0)
         return;
     glint_plan_shape *const to = &pair->shapes[l->shape];
     survey_sparks *const all = &t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + l->shape];
-    const double square = l->cap_off * l->cap_off * part, share = l->cap_share * l->cap_share;
+    const double square = l->cap_off * l->cap_off * part, chance = l->cap_share;
+    const double share = chance * (chance + (1.0 - chance) / t->world->spp);
     t->out->lights[pair->light].kind = GLINT_PLAN_LIGHT_SHAPE;
     to->seen += evals;
     to->part += (float)part;
