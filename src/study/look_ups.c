@@ -1,4 +1,4 @@
-/* The study of look-ups: all 48 realisations of a count, one of them drawn for each sample, or always the nearest. */
+/* The study of look-ups: all 36 realisations of a count, one of them drawn for each sample, or always the nearest. */
 #include "study/look_ups.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 extern const unsigned char look_ups_gnuplot[];
 
 enum { ALL, DRAWN, NEAREST, WAYS };
-static const char *const way_names[WAYS] = { "all 48", "one drawn by its weight", "the nearest" };
+static const char *const way_names[WAYS] = { "all 36", "one drawn by its weight", "the nearest" };
 
 enum { SIDE = 24, PIXELS = SIDE * SIDE, STEPS = 6, TRUTH_SIDE = 32, MOST = TRUTH_SIDE * TRUTH_SIDE };
 static const int samples_of[STEPS] = { 1, 4, 16, 64, 256, 1024 };
@@ -118,7 +118,7 @@ static void report_patch(study_run *run, const patch_error found[WAYS][STEPS])
         "µs a pixel (one lane)",
         "cost_us",
         "root mean square error over the mean",
-        "Take all 48: one drawn costs six tenths of it and needs sixteen times the samples."
+        "Take all 36: one drawn costs six tenths of it and needs sixteen times the samples."
     };
     study_front(run, &dial, settings, WAYS * STEPS);
 }
@@ -141,7 +141,7 @@ static void measure(study_run *run)
     for (int patch = 0; patch < PATCHES; patch++) {
         const patch_error(*const f)[STEPS] = (const patch_error(*)[STEPS])found[patch];
         study_check(run, f[DRAWN][STEPS - 1].cost_ns < 0.7 * f[ALL][STEPS - 1].cost_ns,
-                    "%g lit facets: one drawn takes %.2f of the time of all 48", lit_of[patch],
+                    "%g lit facets: one drawn takes %.2f of the time of all 36", lit_of[patch],
                     f[DRAWN][STEPS - 1].cost_ns / f[ALL][STEPS - 1].cost_ns);
         study_check(
             run, f[DRAWN][STEPS - 1].rms < f[DRAWN][2].rms / 3.0,
@@ -151,7 +151,7 @@ static void measure(study_run *run)
                     "%g lit facets: the nearest does not, it shows another surface: %.3f with 1024", lit_of[patch],
                     f[NEAREST][STEPS - 1].rms);
         study_check(run, f[ALL][3].cost_ns < f[DRAWN][4].cost_ns && f[ALL][3].rms < f[DRAWN][4].rms,
-                    "%g lit facets: all 48 in 64 samples are nearer (%.3f) than one drawn in 256 (%.3f), and cheaper",
+                    "%g lit facets: all 36 in 64 samples are nearer (%.3f) than one drawn in 256 (%.3f), and cheaper",
                     lit_of[patch], f[ALL][3].rms, f[DRAWN][4].rms);
     }
     report_patch(run, (const patch_error(*)[STEPS])found[1]);
@@ -166,9 +166,9 @@ extern const study look_ups_study;
 
 const study look_ups_study = {
     .name = "look-ups",
-    .title = "Look-ups: all 48, one drawn, the nearest",
-    .truth = "all 48 at 1024 places of each pixel",
-    .choose = "all 48: one drawn costs six tenths and needs sixteen times the samples for the same error.",
+    .title = "Look-ups: all 36, one drawn, the nearest",
+    .truth = "all 36 at 1024 places of each pixel",
+    .choose = "all 36: one drawn costs six tenths and needs sixteen times the samples for the same error.",
     .share = 0.01,
     .run = measure,
     .figures = figures,
