@@ -7,14 +7,18 @@
 
 #include "glint_options.h"
 #include "glint_query.h"
+#include "math/effects.h"
 #include "math/float_bits.h"
 #include "ndf/ndf.h"
 
 /* Indexed by glint_model. */
 static const struct model *const models[] = {
-    [GLINT_MODEL_SMOOTH] = &smooth_model,     [GLINT_MODEL_COUNTING] = &counting_model,
-    [GLINT_MODEL_EXPLICIT] = &explicit_model, [GLINT_MODEL_DICTIONARY] = &dictionary_model,
-    [GLINT_MODEL_EXAMPLE] = &example_model,   [GLINT_MODEL_LAYERED] = &layered_model,
+    [GLINT_MODEL_SMOOTH] = &smooth_model,
+    [GLINT_MODEL_COUNTING] = LIBRARY_COUNTING ? &counting_model : &smooth_model,
+    [GLINT_MODEL_EXPLICIT] = LIBRARY_EXPLICIT ? &explicit_model : &counting_model,
+    [GLINT_MODEL_DICTIONARY] = LIBRARY_DICTIONARY ? &dictionary_model : &counting_model,
+    [GLINT_MODEL_EXAMPLE] = LIBRARY_EXAMPLE ? &example_model : &counting_model,
+    [GLINT_MODEL_LAYERED] = &layered_model,
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
 

@@ -105,7 +105,7 @@ typedef enum glint_facet_hash {
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
 } glint_facet_hash;
 
-/* What textures say about one point of the surface; for layered, about the base. */
+/* What textures say about one point of the surface; for layered, about the base. Evaluation clamps to the ranges. */
 typedef struct glint_surface {
     float alpha_x, alpha_y; /* [1e-4, 1], along and across the tangent */
     float diffuse[3];       /* [0, 1], Lambertian albedo below the facets; it gets what the facets do not reflect */
@@ -120,7 +120,8 @@ typedef enum glint_area_light_method {
     /* A few points of a light that is small beside the lobe; of others linearly transformed cosines, or, where alpha_x
      * and alpha_y differ, as exact. */
     GLINT_AREA_LIGHT_FAST = 0,
-    GLINT_AREA_LIGHT_EXACT /* adaptive quadrature, error below 1 % */
+    GLINT_AREA_LIGHT_EXACT /* points where they leave about 1e-6, adaptive quadrature with an error below 1 % elsewhere
+                            */
 } glint_area_light_method;
 
 /* The upper layer of a layered material at one point. */
@@ -502,6 +503,10 @@ typedef struct glint_plan_shape {
     float part;   /* mean over all pixels of the square of this light's part of the pixel */
     float sparks; /* and of the variance of its lit facets, light^2 / (N p), over the mean square of the picture's
                      light, facets and all; 0 where no facets are counted */
+    float cap;    /* and of the square of what caps in place of the shape are off, of the pixel */
+    /* cap and sparks where no further entry becomes caps: then few are taken of those that are off by nearly as much as
+     * this entry holds, and all of those that are off by half of that. */
+    float last_cap, last_sparks;
 } glint_plan_shape;
 
 /* Sorted by what a cap in place of the shape would be off: entry k by no more than .01 2^k, the last by more than all.
@@ -511,7 +516,9 @@ enum { GLINT_PLAN_SHAPES = 6 };
 /* One light on one material, over the picture. */
 typedef struct glint_plan_pair {
     uint32_t material, light;
-    float seen; /* evaluations per sample */
+    float seen;        /* evaluations per sample */
+    float shadow_rays; /* per sample */
+    uint32_t is_clear; /* proven, not seen: nothing can come between the material, wherever it is, and the light */
     glint_plan_shape shapes[GLINT_PLAN_SHAPES];
     float share[GLINT_PLAN_BINS]; /* of the pixels that show these lit facets: mean over all pixels of the square of
                                      this light's part of the pixel; 0 where no facets are counted */
@@ -536,13 +543,15 @@ typedef struct glint_plan_summary {
     uint32_t noise_samples;     /* >= 1 */
     float noise_fall;           /* noise^2 falls as samples^-noise_fall: [1, 3], 1 where samples are independent */
     float noise_spread;         /* standard error of noise^2, relative; kept clear of where the plan chooses */
-    float error_budget;         /* (0, 1]; 0: nothing may be left out */
-    glint_allocator allocator;  /* all NULL: malloc and free */
+    float contrast;     /* >= 1: mean square of the picture's light, facets and all, over the square of its mean */
+    float error_budget; /* (0, 1]; 0: nothing may be left out */
+    glint_allocator allocator; /* all NULL: malloc and free */
 } glint_plan_summary;
 
 #define GLINT_PLAN_SUMMARY_INIT                                                                                        \
     {                                                                                                                  \
-        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 0, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.0F, 1, 1.0F, 0.0F, 0.02F,   \
+        sizeof(glint_plan_summary), 0, 0, 0, 0, 0, 0, 16, 0, 16, 0, 0, 0.0F, 0.0F, 0.0F, 0.0F, 1, 1.0F, 0.0F, 1.0F,    \
+            0.02F,                                                                                                     \
         {                                                                                                              \
             0, 0, 0                                                                                                    \
         }                                                                                                              \
@@ -592,7 +601,8 @@ GLINT_API const glint_decision *glint_plan_decision(const glint_plan *plan, uint
 
 /* The whole of it. */
 typedef struct glint_plan_outcome {
-    float error;             /* of what is left out */
+    float error;             /* of what is left out; facets that flip over the picture's root mean square, */
+    float error_of_mean;     /* and over its mean, which of a few sparks on black is far less */
     float noise;             /* of the samples */
     float ns_per_sample;     /* of one core, by the table */
     uint32_t is_met;         /* error and noise together are within the budget */

@@ -13,7 +13,7 @@ static int has_all(const glint_batch *b)
             return 0;
     if (!b->values && !(b->rgb[0] && b->rgb[1] && b->rgb[2]))
         return 0;
-    return b->area_lights || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
+    return (LIBRARY_AREA_LIGHTS && b->area_lights) || (b->wi[0] && b->wi[1] && b->wi[2] && b->solid_angle_sr);
 }
 
 /* The float as it came where mask is -1, 0 where it is 0. */
@@ -50,10 +50,10 @@ static int fill(model_query *q, checked *c, glint_footprint *f, const glint_mate
                             b->dvdy[i],
                             b->seed ? b->seed[i] : 0U,
                             b->draw ? b->draw[i] : 0U };
-    if (!query_fill(q, c, material, b->surfaces ? &b->surfaces[i] : NULL, f))
+    if (!query_fill(q, c, material, LIBRARY_SURFACES && b->surfaces ? &b->surfaces[i] : NULL, f))
         return 0;
     q->wo = (vec3){ b->wo[0][i], b->wo[1][i], b->wo[2][i] };
-    if (b->area_lights) {
+    if (LIBRARY_AREA_LIGHTS && b->area_lights) {
         q->area_light = &b->area_lights[i];
         return 1;
     }
@@ -91,9 +91,9 @@ static void eval_chunk(const glint_material *material, const glint_batch *b, siz
     size_t index[CHUNK], lit = 0;
     int32_t ok[CHUNK];
     memset(ok, 0xff, sizeof(ok));
-    check_directions(b->wo, first, count, !material->base, ok);
-    if (!b->area_lights)
-        check_directions(b->wi, first, count, !material->base, ok);
+    check_directions(b->wo, first, count, query_has_horizon(material), ok);
+    if (!LIBRARY_AREA_LIGHTS || !b->area_lights)
+        check_directions(b->wi, first, count, query_has_horizon(material), ok);
     for (size_t j = 0; j < count; j++)
         if (ok[j] && fill(&query[lit], &c[lit], &footprint[lit], material, b, first + j))
             index[lit++] = first + j;

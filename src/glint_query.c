@@ -42,13 +42,15 @@ static int clamp_coat(glint_coat *c, const glint_coat *from)
 int query_fill(model_query *q, checked *c, const glint_material *material, const glint_surface *surface,
                const glint_footprint *footprint)
 {
+    if (!LIBRARY_SURFACES)
+        surface = NULL;
     if (surface)
         clamp_surface(&c->surface, surface);
     *q = (model_query){ .material = material,
                         .surface = surface ? &c->surface : &material->options.surface,
                         .total_area = surface ? 0.0F : material->total_area,
                         .footprint = footprint && is_usable(footprint) ? footprint : NULL };
-    if (!material->base || !surface || !surface->coat)
+    if (query_has_horizon(material) || !surface || !surface->coat)
         return 1;
     c->surface.coat = &c->coat;
     return clamp_coat(&c->coat, surface->coat);
@@ -60,14 +62,14 @@ int query_begin(model_query *q, checked *c, const glint_material *material, cons
     if (!material || !wo || !query_fill(q, c, material, surface, footprint))
         return 0;
     q->wo = vec3_from(wo);
-    return is_unit(q->wo) && (material->base || q->wo.z > 0.0F);
+    return is_unit(q->wo) && (!query_has_horizon(material) || q->wo.z > 0.0F);
 }
 
 int query_light(model_query *q, const float wi[3], float solid_angle_sr)
 {
     q->wi = vec3_from(wi);
     q->solid_angle_sr = query_solid_angle(solid_angle_sr);
-    return is_unit(q->wi) && (q->material->base || q->wi.z > 0.0F);
+    return is_unit(q->wi) && (!query_has_horizon(q->material) || q->wi.z > 0.0F);
 }
 
 /* All eight numbers at once, in the manner of clamp_surface. */

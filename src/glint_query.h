@@ -2,6 +2,7 @@
 #ifndef GLINT_QUERY_H
 #define GLINT_QUERY_H
 
+#include "math/effects.h"
 #include "math/float_bits.h"
 #include "model/model.h"
 
@@ -34,6 +35,12 @@ static inline int is_usable(const glint_footprint *f)
 static inline float query_solid_angle(float sr)
 {
     return clamp_to(sr, 0.0F, 6.28318531F);
+}
+
+/* A layered material has no horizon of its own. */
+static inline int query_has_horizon(const glint_material *material)
+{
+    return !LIBRARY_LAYERS || !material->base;
 }
 
 /* Fills all of *q but directions and light. False: the coat has no direction. */

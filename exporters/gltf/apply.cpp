@@ -88,8 +88,8 @@ class applier
                     fits = true;
                 }
             if (!fits)
-                throw file_error("", std::string("found no material called \"") + a.name +
-                                         "\", expected one of: " + near_names(a.name, names_));
+                throw file_error("", std::string("found no material called \"") + a.name + "\"" +
+                                         names_instead(a.name, names_));
         }
     }
 

@@ -96,8 +96,7 @@ void check_name(const std::string &name)
             for (const gltf::property &p : e.schema->properties)
                 names.emplace_back(p.name);
     if (name != "extras" && name != "extensions" && std::find(names.begin(), names.end(), name) == names.end())
-        throw file_error("", "found no property \"" + name + "\" of " + glint_extension +
-                                 ", expected one of: " + near_names(name, names));
+        throw file_error("", "found no property \"" + name + "\" of " + glint_extension + names_instead(name, names));
 }
 
 std::vector<std::string> tokens_of(const std::string &pointer)

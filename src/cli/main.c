@@ -17,7 +17,7 @@ static const struct subcommand {
     { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },
     { "example", "write a built-in normal map of the example model", command_example },
-    { "export", "write a scene for other programs: glTF", command_export },
+    { "export", "write a scene for other programs: glTF, POV-Ray", command_export },
     { "inspect", "say what is in a glTF scene", command_inspect },
     { "validate", "check the glint materials of glTF files and presets", command_validate },
     { "materials", "list the material presets, or show one", command_materials },

@@ -37,6 +37,7 @@ document *plan_document(const glint_plan *plan, const scene *s)
     const glint_plan_outcome out = glint_plan_result(plan);
     document *const o = document_object(), *const list = document_array();
     document_set_number(o, "error", (double)out.error);
+    document_set_number(o, "error_of_mean", (double)out.error_of_mean);
     document_set_number(o, "noise", (double)out.noise);
     document_set_boolean(o, "met", out.is_met != 0);
     document_set_integer(o, "enough_samples", out.enough_samples);

@@ -95,7 +95,7 @@ const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES] = {
       .max = 1,
       .target = AT(accuracy) },
     { .name = "model",
-      .help = "auto is counting where a material has glints",
+      .help = "auto is what each material asks for: example, dictionary, counting or smooth",
       .kind = ARGUMENT_CHOICE,
       .choice = arguments_model_choice,
       .target = AT(model) },
@@ -202,6 +202,8 @@ bool render_read_scene(const char *path, const render_values *v, scene *s, repor
     for (size_t i = 0; i < v->materials.count; ++i)
         if (!preset_apply(s, v->materials.items[i].name, v->materials.items[i].value, r))
             return false;
+    if (s->instance_count == 0)
+        report_warning(r, "%s: nothing to see: no triangles", path);
     return true;
 }
 

@@ -181,7 +181,7 @@ static document *document_of(const study_outcome *o)
     document_set_text(d, "name", o->study->name);
     document_set_text(d, "title", o->study->title);
     document_set_text(d, "truth", o->study->truth);
-    document_set_text(d, "choose", o->study->choose);
+    document_set_text(d, "choose", study_outcome_choose(o));
     document_set_number(d, "elapsed_s", o->elapsed_s);
     for (size_t i = 0; i < o->line_count; ++i) {
         if (!o->lines[i].is_check) {
@@ -224,7 +224,7 @@ static void print_lines(const study_values *v, const study_series *s)
     for (size_t i = 0; i < s->count; ++i) {
         const study_outcome *const o = &s->outcomes[i];
         printf("%s: %s, against %s\n", o->study->name, o->study->title, o->study->truth);
-        printf("  choose %s\n", o->study->choose);
+        printf("  choose %s\n", study_outcome_choose(o));
         for (size_t k = 0; k < o->line_count; ++k)
             if (!o->lines[k].is_check || !o->lines[k].holds)
                 printf("  %s%s\n", o->lines[k].is_check ? "beyond its bound: " : "", o->lines[k].text);

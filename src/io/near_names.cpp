@@ -6,21 +6,44 @@
 
 #include "scene/edit_distance.h"
 
-std::string near_names(const std::string &wanted, const std::vector<std::string> &names)
+namespace
+{
+
+std::vector<std::string> near(const std::string &wanted, const std::vector<std::string> &names)
 {
     const size_t limit = edit_distance_near(wanted.c_str());
-    std::vector<std::pair<size_t, std::string>> near;
+    std::vector<std::pair<size_t, std::string>> found;
     for (const std::string &name : names) {
         const size_t distance = edit_distance(wanted.c_str(), name.c_str());
         if (distance <= limit)
-            near.emplace_back(distance, name);
+            found.emplace_back(distance, name);
     }
-    std::stable_sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    std::stable_sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    std::vector<std::string> sorted;
+    for (const auto &[distance, name] : found)
+        sorted.push_back(name);
+    return sorted;
+}
+
+std::string joined(const std::vector<std::string> &names, const char *separator)
+{
     std::string list;
-    for (const auto &[distance, name] : near)
-        list += (list.empty() ? "" : ", ") + name;
     for (const std::string &name : names)
-        if (near.empty())
-            list += (list.empty() ? "" : ", ") + name;
+        list += (list.empty() ? "" : separator) + name;
     return list.empty() ? "none" : list;
+}
+
+} // namespace
+
+std::string near_names(const std::string &wanted, const std::vector<std::string> &names)
+{
+    const std::vector<std::string> meant = near(wanted, names);
+    return joined(meant.empty() ? names : meant, ", ");
+}
+
+std::string names_instead(const std::string &wanted, const std::vector<std::string> &names)
+{
+    const std::vector<std::string> meant = near(wanted, names);
+    return meant.empty() ? ", expected one of: " + joined(names, ", ")
+                         : "; did you mean " + joined(meant, " or ") + "?";
 }

@@ -9,4 +9,8 @@
 // none is near. Separated by commas; "none" when there are no names.
 std::string near_names(const std::string &wanted, const std::vector<std::string> &names);
 
+// How a sentence ends that says what was not found: "; did you mean A or B?" of those that are near, else ", expected
+// one of: " and all of them.
+std::string names_instead(const std::string &wanted, const std::vector<std::string> &names);
+
 #endif

@@ -135,11 +135,6 @@ bool output_file_write(output_file *f, const void *data, size_t byte_count)
     return !f->error && remember(f, fwrite(data, 1, byte_count, f->stream) == byte_count);
 }
 
-bool output_file_failed(const output_file *f)
-{
-    return f->error != 0;
-}
-
 bool output_file_seek(output_file *f, int64_t position)
 {
     return !f->error && remember(f, fseeko(f->stream, position, SEEK_SET) == 0);
@@ -171,15 +166,6 @@ void output_file_abort(output_file *f)
     fclose(f->stream);
     unlink(f->temporary);
     output_file_free(f);
-}
-
-bool output_file_write_text(const char *path, const char *text, report *r)
-{
-    output_file *f = output_file_open(path, r);
-    if (!f)
-        return false;
-    output_file_write(f, text, strlen(text));
-    return output_file_commit(f, r);
 }
 
 bool output_file_check(const char *path, report *r)

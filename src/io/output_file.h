@@ -23,8 +23,6 @@ output_file *output_file_open(const char *path, report *r);
 /* Writes at the current position. After the first failure it writes nothing more, returns false, and the commit fails.
  */
 bool output_file_write(output_file *f, const void *data, size_t byte_count);
-/* Whether a write or a seek has failed. */
-bool output_file_failed(const output_file *f);
 /* Bytes from the start, for formats that fill in a table at the end. */
 bool output_file_seek(output_file *f, int64_t position);
 int64_t output_file_tell(output_file *f);
@@ -34,9 +32,6 @@ int64_t output_file_tell(output_file *f);
 bool output_file_commit(output_file *f, report *r);
 /* Removes the temporary file and frees f; NULL is allowed. */
 void output_file_abort(output_file *f);
-
-/* A whole file from one string. */
-bool output_file_write_text(const char *path, const char *text, report *r);
 
 /* Whether path could be written now, found by trying: asked before long work, it saves the work. Leaves nothing behind.
  */

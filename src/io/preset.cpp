@@ -159,8 +159,8 @@ void apply(scene *s, const std::string &material_name, const scene_material &pre
             replaced++;
         }
     if (replaced == 0 && material_name != "*")
-        throw file_error("", "found no material called \"" + material_name +
-                                 "\", expected one of: " + near_names(material_name, material_names(s)));
+        throw file_error("", "found no material called \"" + material_name + "\"" +
+                                 names_instead(material_name, material_names(s)));
 }
 
 } // namespace
@@ -191,8 +191,7 @@ std::string preset_path(const std::string &name)
     const std::string folder = preset_folder();
     const std::vector<std::string> names = preset_names(folder);
     if (!std::binary_search(names.begin(), names.end(), name))
-        throw file_error("",
-                         "found no preset of this name in " + folder + ", expected one of: " + near_names(name, names));
+        throw file_error("", "found no preset of this name in " + folder + names_instead(name, names));
     return folder + "/" + name + suffix;
 }
 

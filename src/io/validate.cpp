@@ -130,7 +130,8 @@ bool validate_file(const char *path, validate_visitor visit, void *user)
     try {
         check(s, issues);
     } catch (const file_error &e) {
-        add_text(issues, "FILE", e.place, e.text);
+        const bool is_verb = e.text.compare(0, 7, "cannot ") == 0;
+        add_text(issues, "FILE", e.place, (is_verb ? "a file that " : "") + e.text);
     } catch (const std::bad_alloc &) {
         issues.add(VALIDATE_ERROR, "FILE", "", "a file that needs more memory than there is", "");
     } catch (const std::exception &e) {

@@ -1,4 +1,4 @@
-/* Points and weights over a square, a disk and a triangle: sums over them are means of every polynomial up to a degree.
+/* Points and weights over a square and a disk: sums over them are means of every polynomial up to a degree.
  *
  * Points come in rows of eight, for lanes. Weights add up to one. The unit test `cubature` holds each rule to its
  * degree.
@@ -8,11 +8,11 @@
 
 enum { CUBATURE_ROW = 8 };
 
-/* x and y in [-1, 1]; x^2 + y^2 <= 1; x, y >= 0 and x + y <= 1. */
-enum { CUBATURE_SQUARE, CUBATURE_DISK, CUBATURE_TRIANGLE, CUBATURE_SHAPES };
+/* x and y in [-1, 1]; x^2 + y^2 <= 1. */
+enum { CUBATURE_SQUARE, CUBATURE_DISK, CUBATURE_SHAPES };
 
-/* Of degrees 5, 7 and 15. */
-enum { CUBATURE_COARSE, CUBATURE_MIDDLE, CUBATURE_FINE, CUBATURE_LEVELS };
+/* Of degrees 5, 7, 11 and 15. */
+enum { CUBATURE_COARSE, CUBATURE_MIDDLE, CUBATURE_FINE, CUBATURE_FINEST, CUBATURE_LEVELS };
 
 typedef struct cubature {
     int row_count;

@@ -46,12 +46,20 @@ static inline vfloat log2_of_miss(vfloat p)
     return -2.88539008F * (s + s * (q * z));
 }
 
+/* t = *n log(2) + what is returned, *n whole, the rest at most log(2) / 2. log(2) comes in two parts, of which the
+ * first has so few bits that its product is exact (Cody and Waite). */
+static inline vfloat exp_rest(vfloat t, vfloat *n)
+{
+    *n = floor_f(t * 1.44269504F + 0.5F);
+    const vfloat r = t - *n * 0.693359375F;
+    return r + *n * 2.12194440e-4F;
+}
+
 /* exp(t) = (*q + 1) * *scale, *q the exponential of what is left of t less one. */
 static inline void exp_reduce(vfloat t, vfloat *q, vfloat *scale)
 {
-    const vfloat n = floor_f(t * 1.44269504F + 0.5F);
-    vfloat r = t - n * 0.693359375F;
-    r = r + n * 2.12194440e-4F;
+    vfloat n;
+    const vfloat r = exp_rest(t, &n);
     vfloat p = 1.9875691500e-4F * r + 1.3981999507e-3F;
     p = p * r + 8.3334519073e-3F;
     p = p * r + 4.1665795894e-2F;

@@ -93,8 +93,7 @@ void area_mix(area_value *value, const area_value *other, float share)
 
 void area_eval(const model_query *q, area_value *value)
 {
-    const int is_exact = q->material->options.area_light_method == GLINT_AREA_LIGHT_EXACT;
-    const float left = is_exact ? 1.0F : area_eval_plain(q, value);
+    const float left = area_eval_plain(q, value);
     if (!(left > 0.0F))
         return;
     area_value other;

@@ -28,6 +28,13 @@ static inline vfloat fold_eighths(vfloat a, vfloat b)
            (vfloat){ a[1], a[3], b[1], b[3], a[5], a[7], b[5], b[7] };
 }
 
+/* The sums of four vectors, in lanes 0, 1, 4 and 5. */
+static inline vfloat fold_four(vfloat a, vfloat b, vfloat c, vfloat d)
+{
+    const vfloat q = fold_quarters(fold_halves(a, c), fold_halves(b, d));
+    return fold_eighths(q, q);
+}
+
 /* The sums of eight vectors, in their order. */
 static inline vfloat fold_eight(vfloat a, vfloat b, vfloat c, vfloat d, vfloat e, vfloat f, vfloat g, vfloat h)
 {

@@ -12,7 +12,10 @@ typedef struct area_crowd {
     float hidden[LOBE_MOST]; /* in [0, 1] */
     int32_t kind[LOBE_MOST], two_sided[LOBE_MOST];
     float center[3][LOBE_MOST], half_x[3][LOBE_MOST], half_y[3][LOBE_MOST];
-    float size[LOBE_MOST]; /* radius of a sphere, solid angle of a sun */
+    float size[LOBE_MOST];           /* radius of a sphere, solid angle of a sun */
+    int most_corners;                /* of all polygons, made even; 0: there are none, and what follows is not set */
+    int32_t corner_count[LOBE_MOST]; /* 0: not a polygon, or none of this many */
+    float corner[GLINT_MAX_CORNERS][3][LOBE_MOST]; /* up to most_corners; the first is repeated */
 } area_crowd;
 
 /* What area_eval_plain gives, bit for bit, and in left what it returns. count: a multiple of the width. counts: whether

@@ -45,6 +45,30 @@ static void gather(const model_query *q, size_t i, area_crowd *c)
     }
 }
 
+static int corner_count(const model_query *q)
+{
+    const glint_area_light *l = q->area_light;
+    const int is_one = l->kind == GLINT_AREA_POLYGON && l->corner_count >= 3U && l->corner_count <= GLINT_MAX_CORNERS;
+    return is_one ? (int)l->corner_count : 0;
+}
+
+static int most_corners(const model_query *q, size_t count)
+{
+    int most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = corner_count(&q[i]) > most ? corner_count(&q[i]) : most;
+    return most + (most & 1);
+}
+
+static void gather_corners(const model_query *q, size_t i, area_crowd *c)
+{
+    const int count = corner_count(q);
+    c->corner_count[i] = count;
+    for (int k = 0; k < c->most_corners; k++)
+        for (int axis = 0; axis < 3; axis++)
+            c->corner[k][axis][i] = count > 0 ? q->area_light->corners[k < count ? k : 0][axis] : 0.0F;
+}
+
 static area_value take(const lobe_lit *lit, size_t i, int counts)
 {
     area_value v = { .lit_probability = 0.0F };
@@ -85,35 +109,24 @@ static void finish(const model_query *q, float left, int counts, lobe_lit *lit, 
     put(&other, lit, i);
 }
 
-static int is_polygon(const model_query *q)
-{
-    return q->area_light->kind == GLINT_AREA_POLYGON;
-}
-
 void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *lit)
 {
     const glint_material_options *o = &q->material->options;
     const int is_exact = o->area_light_method == GLINT_AREA_LIGHT_EXACT;
     area_crowd crowd;
     float left[LOBE_MOST];
-    if (!is_exact) {
-        for (size_t i = 0; i < count; i++)
-            gather(&q[i], i, &crowd);
-        /* What is left of a vector repeats the last. */
-        const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
-        for (size_t i = count; i < padded; i++)
-            gather(&q[count - 1], i, &crowd);
-        area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
+    /* What is left of a vector repeats the last. */
+    const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
+    /* Squares of polygons are for the fast integral. */
+    crowd.most_corners = is_exact ? 0 : most_corners(q, count);
+    for (size_t i = 0; i < padded; i++) {
+        const model_query *const one = &q[i < count ? i : count - 1];
+        gather(one, i, &crowd);
+        if (crowd.most_corners > 0)
+            gather_corners(one, i, &crowd);
     }
-    for (size_t i = 0; i < count; i++) {
-        if (is_exact) {
-            finish(&q[i], 1.0F, counts, lit, i);
-        } else if (is_polygon(&q[i])) {
-            area_value value;
-            area_eval(&q[i], &value);
-            put(&value, lit, i);
-        } else if (left[i] > 0.0F) {
+    area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
+    for (size_t i = 0; i < count; i++)
+        if (left[i] > 0.0F)
             finish(&q[i], left[i], counts, lit, i);
-        }
-    }
 }

@@ -5,19 +5,21 @@
 #include "light/cubature.h"
 #include "math/vec3.h"
 
-/* The directions middle + x u + y v of plain_light, and its size. */
-typedef struct area_patch {
-    vec3 middle, u, v;
-    float size;
-} area_patch;
+enum { AREA_ROOM = 8 };
 
-/* What area_lobe has, and parts of a light, at most as many as a polygon has corners. */
+/* plain_quad's of a light, at every second place; w and the sizes by place are not set but for polygons. */
+typedef struct area_parts {
+    float middle[3][AREA_ROOM], u[3][AREA_ROOM], v[3][AREA_ROOM], w[3][AREA_ROOM];
+    float size[AREA_ROOM], size_x[AREA_ROOM], size_y[AREA_ROOM];
+} area_parts;
+
+/* What area_lobe has, and a light. */
 typedef struct area_nodes {
     int is_ggx, is_schlick, has_base;
     vec3 wo;
     float visible_o, alpha_x, alpha_y;
-    int count;
-    area_patch patch[8];
+    int is_bent, count; /* bent: the parts are those of a polygon */
+    area_parts parts;
 } area_nodes;
 
 /* plain_sums. */
@@ -28,7 +30,11 @@ typedef struct area_node_sums {
 
 typedef void area_nodes_sum(const area_nodes *n, const cubature *rule, area_node_sums *sums);
 
+/* Sets parts, of a polygon of 3 to 8 corners; and returns plain_light's rule, and what is left. */
+typedef int area_fan_of(const float (*corner)[3], int count, int two_sided, area_nodes *n, float *left);
+
 /* The same source, and so the same bits, for the processor that the library is compiled for and for one with AVX2. */
 area_nodes_sum area_nodes_sum_base, area_nodes_sum_avx2;
+area_fan_of area_fan_of_base, area_fan_of_avx2;
 
 #endif

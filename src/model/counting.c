@@ -6,6 +6,7 @@
 #include "model/counting_kernel.h"
 
 #define GLINT_LANES 1
+#include "math/effects.h"
 #include "math/fade.h"
 #include "math/float_bits.h"
 #include "math/hash.h"
@@ -68,7 +69,7 @@ counting_width counting_narrowest(void)
 static void find_one(const model_query *q, lobe_lit *l, size_t i)
 {
     area_value a;
-    if (q->area_light) {
+    if (LIBRARY_AREA_LIGHTS && q->area_light) {
         area_eval(q, &a);
     } else {
         lobe_value lobe;
@@ -92,7 +93,7 @@ static void find_one(const model_query *q, lobe_lit *l, size_t i)
 static void find_lit(const model_query *q, size_t number, lobe_lit *l)
 {
     if (number > 1)
-        (q->area_light ? area_eval_many : lobe_eval_many)(q, number, 1, l);
+        (LIBRARY_AREA_LIGHTS && q->area_light ? area_eval_many : lobe_eval_many)(q, number, 1, l);
     else
         find_one(q, l, 0);
 }
@@ -100,15 +101,15 @@ static void find_lit(const model_query *q, size_t number, lobe_lit *l)
 /* Whether there is anything to count at this point. */
 static int is_discrete(const model_query *q)
 {
-    return q->footprint && (q->solid_angle_sr > 0.0F || q->area_light) && q->surface->discreteness > 0.0F &&
-           q->surface->facets_per_m2 > 0.0F;
+    return q->footprint && (q->solid_angle_sr > 0.0F || (LIBRARY_AREA_LIGHTS && q->area_light)) &&
+           (!LIBRARY_DISCRETENESS || q->surface->discreteness > 0.0F) && q->surface->facets_per_m2 > 0.0F;
 }
 
 /* Fills point k. */
 static void gather_point(const model_query *q, gathered *g, size_t k)
 {
     const glint_material_options *o = &q->material->options;
-    const glint_footprint f = stretch_footprint(q->footprint, o->elongation);
+    const glint_footprint f = LIBRARY_ELONGATION ? stretch_footprint(q->footprint, o->elongation) : *q->footprint;
     g->u[k] = f.u;
     g->v[k] = f.v;
     g->dudx[k] = f.dudx;
@@ -143,7 +144,8 @@ static void combine(const lobe_lit *lit, size_t i, float g, const float factor[3
 {
     for (int c = 0; c < 3; c++) {
         value->smooth[c] = lit->specular[c][i] + lit->diffuse[c][i];
-        value->rgb[c] = lit->specular[c][i] * ((1.0F - g) + g * factor[c]) + lit->diffuse[c][i];
+        const float shown = LIBRARY_DISCRETENESS ? (1.0F - g) + g * factor[c] : factor[c];
+        value->rgb[c] = lit->specular[c][i] * shown + lit->diffuse[c][i];
     }
 }
 
@@ -216,7 +218,7 @@ static void count(counted *c, const model_query *q, const lobe_lit *lit, countin
     float factor[3][CHUNK], facets[CHUNK];
     const counting_points points = points_of(c);
     const size_t padded = pad(c, q, lit, width.lanes);
-    if (baked->is_tinted) {
+    if (LIBRARY_TINTS && baked->is_tinted) {
         float *const factors[3] = { factor[0], factor[1], factor[2] };
         width.tinted(&points, padded, &baked->palette, factors, facets);
         put(c, lit, factors, facets, value);
@@ -276,12 +278,12 @@ static void eval_what_shows(const model_query *q, size_t number, counting_width 
         value[i] = (glint_value){ 0 };
         const float facets = is_discrete(&q[i]) ? facets_under(&q[i]) : 0.0F, p = lit.p[i];
         const float deviation = fade_deviation(facets * p);
-        const float share = facets > 0.0F ? fade_share(deviation, o->smooth_deviation) : 0.0F;
+        const float share = facets > 0.0F ? fade_share(deviation, LIBRARY_FADING ? o->smooth_deviation : 0.0F) : 0.0F;
         if (!(share > 0.0F)) {
             combine(&lit, i, 1.0F, smooth_factor, &value[i]);
             value[i].facet_count = facets;
             value[i].lit_probability = facets > 0.0F ? p : 0.0F;
-        } else if (3.0F * deviation < o->draw_deviation && !baked->is_tinted) {
+        } else if (LIBRARY_DRAWS && 3.0F * deviation < o->draw_deviation && !baked->is_tinted) {
             add(&drawn, q, &lit, i, share * q[i].surface->discreteness, 0);
         } else {
             add(&all, q, &lit, i, share * q[i].surface->discreteness, 1);
@@ -312,7 +314,8 @@ static glint_result counting_setup(struct glint_material *material)
     counting_baked *baked = a->allocate(sizeof(*baked), a->user);
     if (!baked)
         return GLINT_ERROR_MEMORY;
-    const int leaves_out = o->smooth_deviation > 0.0F || o->draw_deviation > 0.0F;
+    const int leaves_out =
+        (LIBRARY_FADING && o->smooth_deviation > 0.0F) || (LIBRARY_DRAWS && o->draw_deviation > 0.0F);
     *baked = (counting_baked){ counting_widest(16), counting_narrowest(), leaves_out ? eval_what_shows : eval_all,
                                tint_is_asked(o), tint_palette_of(o) };
     material->baked = baked;

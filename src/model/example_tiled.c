@@ -24,8 +24,7 @@ static example_look *widest(void)
     }
 }
 
-/* All squares that the footprint may reach, and their centres on the lattice. */
-static void find_squares(const question *q, example_squares *s, float centre[2][EXAMPLE_MOST_SQUARES])
+void example_find_squares(const question *q, example_squares *s, float centre[2][EXAMPLE_MOST_SQUARES])
 {
     const lattice *l = &q->e->lattice;
     const extent *r = &q->reach;
@@ -89,7 +88,7 @@ void example_gather_tiled(const question *q, int wants_mass, gathered *sum)
     const lattice *l = &q->e->lattice;
     example_squares squares;
     float centre[2][EXAMPLE_MOST_SQUARES];
-    find_squares(q, &squares, centre);
+    example_find_squares(q, &squares, centre);
     const instance unturned = { 0.0F, 0.0F, l->variants[0] };
     example_view views[LATTICE_MIRRORED];
     views[0] = example_view_of(q, &unturned);

@@ -24,7 +24,7 @@ static lobe_query one_query(const model_query *q)
     return (lobe_query){ { q->wo.x, q->wo.y, q->wo.z },
                          { q->wi.x, q->wi.y, q->wi.z },
                          s->alpha_x,
-                         s->alpha_y,
+                         LIBRARY_ANISOTROPY ? s->alpha_y : s->alpha_x,
                          { s->diffuse[0], s->diffuse[1], s->diffuse[2] },
                          { s->f0[0], s->f0[1], s->f0[2] },
                          { s->f90[0], s->f90[1], s->f90[2] } };

@@ -2,6 +2,7 @@
 #ifndef MODEL_LOBE_H
 #define MODEL_LOBE_H
 
+#include "math/effects.h"
 #include "model/model.h"
 #include "ndf/ndf.h"
 
@@ -19,8 +20,9 @@ typedef struct lobe_value {
 /* The distribution of the facets at this point. */
 static inline ndf lobe_ndf(const model_query *q)
 {
-    return (ndf){ q->material->options.distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN,
-                  q->surface->alpha_x, q->surface->alpha_y };
+    const int is_ggx = !LIBRARY_BECKMANN || q->material->options.distribution == GLINT_DISTRIBUTION_GGX;
+    return (ndf){ is_ggx ? NDF_GGX : NDF_BECKMANN, q->surface->alpha_x,
+                  LIBRARY_ANISOTROPY ? q->surface->alpha_y : q->surface->alpha_x };
 }
 
 /* F of one facet, for the cosine in [0, 1] between a direction and its normal. */

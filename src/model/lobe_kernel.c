@@ -9,7 +9,7 @@ static lobe_query query_of(const lobe_points *p, size_t i)
     lobe_query q = { .wo = { load_f(p->wo[0] + i), load_f(p->wo[1] + i), load_f(p->wo[2] + i) },
                      .wi = { load_f(p->wi[0] + i), load_f(p->wi[1] + i), load_f(p->wi[2] + i) },
                      .alpha_x = load_f(p->alpha_x + i),
-                     .alpha_y = load_f(p->alpha_y + i) };
+                     .alpha_y = load_f((LIBRARY_ANISOTROPY ? p->alpha_y : p->alpha_x) + i) };
     for (int c = 0; c < 3; c++) {
         q.diffuse[c] = load_f(p->diffuse[c] + i);
         q.f0[c] = load_f(p->f0[c] + i);

@@ -2,6 +2,7 @@
 #ifndef MODEL_LOBE_LANES_H
 #define MODEL_LOBE_LANES_H
 
+#include "math/effects.h"
 #include "math/lanes3.h"
 #include "model/model.h"
 #include "ndf/fresnel.h"
@@ -16,13 +17,13 @@ typedef struct lobe_query {
 
 static inline ndf_kind lobe_kind(const glint_material_options *o)
 {
-    return o->distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN;
+    return !LIBRARY_BECKMANN || o->distribution == GLINT_DISTRIBUTION_GGX ? NDF_GGX : NDF_BECKMANN;
 }
 
 static inline vfloat lobe_reflectance_of(const glint_material_options *o, int channel, vfloat f0, vfloat f90,
                                          vfloat cosine)
 {
-    switch (o->fresnel) {
+    switch (LIBRARY_FRESNEL_TERMS ? o->fresnel : GLINT_FRESNEL_SCHLICK) {
     case GLINT_FRESNEL_DIELECTRIC:
         return fresnel_dielectric(cosine, o->ior);
     case GLINT_FRESNEL_CONDUCTOR:
@@ -97,7 +98,7 @@ static inline vfloat lobe_lit_probability_of(const glint_material_options *o, co
                                              vfloat density, vfloat h_z, vfloat solid_angle_sr)
 {
     vfloat p = density * solid_angle_sr;
-    if (o->weighting == GLINT_WEIGHTING_EQUAL_PROJECTED_AREA) {
+    if (LIBRARY_WEIGHTINGS && o->weighting == GLINT_WEIGHTING_EQUAL_PROJECTED_AREA) {
         p = p * h_z;
     } else {
         const vmask known = less(splat(0.0F), total_area);

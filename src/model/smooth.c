@@ -1,4 +1,5 @@
 /* The smooth model: infinitely many facets, a Cook-Torrance lobe (Cook and Torrance 1982; Walter et al. 2007). */
+#include "math/effects.h"
 #include "model/area.h"
 #include "model/area_kernel.h"
 #include "model/lobe.h"
@@ -7,7 +8,7 @@
 static void smooth_eval(const model_query *q, glint_value *value)
 {
     *value = (glint_value){ 0 };
-    if (q->area_light) {
+    if (LIBRARY_AREA_LIGHTS && q->area_light) {
         area_value area;
         area_eval(q, &area);
         for (int c = 0; c < 3; c++)
@@ -25,7 +26,7 @@ static void smooth_eval_many(const model_query *q, size_t count, glint_value *va
     lobe_lit lit;
     for (size_t first = 0; first < count; first += LOBE_MOST) {
         const size_t number = count - first < LOBE_MOST ? count - first : LOBE_MOST;
-        (q->area_light ? area_eval_many : lobe_eval_many)(q + first, number, 0, &lit);
+        (LIBRARY_AREA_LIGHTS && q->area_light ? area_eval_many : lobe_eval_many)(q + first, number, 0, &lit);
         for (size_t i = 0; i < number; i++) {
             glint_value *v = &value[first + i];
             *v = (glint_value){ 0 };

@@ -28,11 +28,6 @@ float beckmann_tail_area(float alpha, float w)
     return beckmann_tail_of(alpha, w);
 }
 
-float beckmann_total_area(float alpha)
-{
-    return 1.0F + beckmann_tail_area(alpha, 1.0F);
-}
-
 /* Slope along the view, with density proportional to (cos - x sin) exp(-x^2) for x below cot: its distribution function
  * is cos (1 + erf x) / 2 + sin exp(-x^2) / (2 sqrt pi), inverted by bisection with Newton steps (Heitz and d'Eon 2014).
  */

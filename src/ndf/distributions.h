@@ -6,7 +6,6 @@
 
 float ggx_density(float alpha_x, float alpha_y, vec3 h);
 float ggx_masked(float alpha_x, float alpha_y, vec3 v);
-float ggx_total_area(float alpha);
 /* Of the area beyond slope r, w = sqrt(1 + alpha^2 r^2): what exceeds w times the projected area there (Beckmann: over
  * it). */
 float ggx_tail_area(float alpha, float w);
@@ -14,7 +13,6 @@ vec3 ggx_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u
 
 float beckmann_density(float alpha_x, float alpha_y, vec3 h);
 float beckmann_masked(float alpha_x, float alpha_y, vec3 v);
-float beckmann_total_area(float alpha);
 float beckmann_tail_area(float alpha, float w);
 vec3 beckmann_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u2);
 

@@ -19,11 +19,6 @@ float ggx_tail_area(float alpha, float w)
     return ggx_tail_of(alpha, w);
 }
 
-float ggx_total_area(float alpha)
-{
-    return 1.0F + ggx_tail_area(alpha, 1.0F);
-}
-
 vec3 ggx_sample_visible(float alpha_x, float alpha_y, vec3 wo, float u1, float u2)
 {
     /* Spherical caps: Dupuy and Benyoub 2023. */

@@ -2,6 +2,7 @@
 #ifndef NDF_NDF_LANES_H
 #define NDF_NDF_LANES_H
 
+#include "math/effects.h"
 #include "math/elementary.h"
 #include "math/lanes3.h"
 #include "ndf/beckmann_masked.h"
@@ -112,7 +113,7 @@ static inline vfloat ndf_total_area_of(ndf_kind kind, vfloat alpha_x, vfloat alp
 {
     const vfloat area = ndf_round_area_of(kind, alpha_x);
     const vmask uneven = less(alpha_x, alpha_y) | less(alpha_y, alpha_x);
-    if (!any(uneven))
+    if (!LIBRARY_ANISOTROPY || !any(uneven))
         return area;
     /* In the plane of azimuth phi the surface has the isotropic roughness a(phi), and phi is uniform once slopes are
      * scaled by the roughness: D_H is the mean of the isotropic one. The midpoint rule converges exponentially on a
@@ -130,7 +131,7 @@ static inline vfloat ndf_total_area_of(ndf_kind kind, vfloat alpha_x, vfloat alp
 
 static inline vfloat ndf_lit_solid_angle_of(ndf_kind kind, vfloat half_vectors_sr, float facet_alpha)
 {
-    if (!(facet_alpha > 0.0F))
+    if (!LIBRARY_ROUGH_FACETS || !(facet_alpha > 0.0F))
         return half_vectors_sr;
     const vfloat r = sqrt_f(half_vectors_sr * (1.0F / MATH_PI));
     const float lobe = (kind == NDF_GGX ? 3.0F : 2.0F) * MATH_PI * facet_alpha * facet_alpha;

@@ -27,8 +27,10 @@ slope2 slopes_of_projected_area(const ndf *n, float u, float azimuth)
 }
 
 /* The area-weighted chance that the radius is larger, times D_H, for isotropic roughness a, as a function of the
- * unweighted chance q. With w = sqrt(1 + a^2 r^2), b = sqrt(1 - a^2): GGX       w q + a^2 atanh(b / w) / b Beckmann   q
- * (w + sqrt(pi)/2 a erfcx(w / a)) */
+ * unweighted chance q. With w = sqrt(1 + a^2 r^2) and b = sqrt(1 - a^2) it is
+ *
+ *   w q + a^2 atanh(b / w) / b               for GGX,
+ *   q (w + sqrt(pi) / 2 a erfcx(w / a))      for Beckmann. */
 static float tail_area(ndf_kind kind, float a, float q, float *w)
 {
     const float r = radius_of_tail(kind, q);

@@ -25,9 +25,12 @@ struct glint_plan {
     glint_plan_outcome outcome;
     double budget;   /* that may be left out: all of the error budget, or what the noise leaves of it */
     double variance; /* of all errors so far */
+    double excess;   /* of facets that flip, so much more over the picture's mean than over its root mean square */
+    int is_strict;   /* the budget is for errors over the mean */
     plan_material *materials;
     uint32_t *first_pair, *pairs; /* indices of the summary's pairs, material by material; where each material begins */
     float *light_seen;            /* evaluations of each light per sample */
+    float *light_shadows;         /* and shadow rays that something may block */
     int caps;                     /* entries of a pair's shapes for which a cap may stand, 0: none */
     glint_decision *decisions;
     uint32_t count, capacity;
@@ -62,8 +65,11 @@ int plan_draws(const glint_plan *p, uint32_t material);
 /* Whether a light of this material is sampled and not evaluated. */
 int plan_is_surrounded(const glint_plan *p, uint32_t material);
 
-/* plan_lights.c: LIGHT and SHADOWS. */
+/* plan_lights.c: LIGHT. */
 void plan_lights(glint_plan *p);
+
+/* plan_shadows.c: SHADOWS. */
+void plan_shadows(glint_plan *p);
 
 /* plan_scene.c: everything else but the number of samples. */
 void plan_surfaces(glint_plan *p);

@@ -84,6 +84,7 @@ void plan_samples(glint_plan *p)
     const double left = budget * budget - p->variance;
     glint_plan_outcome *const o = &p->outcome;
     o->error = (float)sqrt(p->variance);
+    o->error_of_mean = (float)sqrt(p->variance + p->excess);
     o->noise = (float)sqrt(noise);
     o->samples = samples;
     o->is_met = left >= noise;

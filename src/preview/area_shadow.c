@@ -173,7 +173,7 @@ bool area_shadow_begin(const hit *h, const shade_point *p, const sampler *random
     *area = shape_of(s, h->position);
     if (!shade_faces_area(p, area))
         return false;
-    if (l->unshadowed)
+    if (l->unshadowed || s->is_clear)
         return true;
     double u[2], draw[2];
     const bool is_one = !light_is_area(l) && s->view.sine < ONE_RAY;

@@ -14,7 +14,8 @@ enum { AREA_MOST_RAYS = AREA_SPREAD + AREA_REFLECTED };
 typedef struct area_shadow {
     const light *light;
     light_view view;
-    int ray_count;  /* 0: nothing can hide it */
+    bool is_clear; /* nothing can hide it */
+    int ray_count;
     bool is_shared; /* the rays stand for a share of the light each; else one for all */
     bool is_sharp;  /* some of them were reflected */
 } area_shadow;

@@ -28,7 +28,7 @@ static void gather_cap(const world *w, const hit *h, const sampler *random, uint
     q->shade.wi = view->wi;
     q->shade.solid_angle_sr = view->solid_angle_sr;
     q->shadow.is_shared = false;
-    q->shadow.ray_count = q->shadow.light->unshadowed ? 0 : 1;
+    q->shadow.ray_count = q->shadow.light->unshadowed || q->shadow.is_clear ? 0 : 1;
     if (q->shadow.ray_count > 0)
         aim(w, h, q->shadow.light, view, random, dimension, ray);
 }
@@ -43,6 +43,16 @@ static bool gather_shape(const hit *h, const sampler *random, uint32_t dimension
             q->irradiance[c] *= scale;
     }
     return area_shadow_begin(h, q->shade.point, random, dimension, thorough, &q->shadow, rays, &q->shade.area);
+}
+
+/* Whether the plan has it proven that nothing comes between the point and one of the world's lights. */
+static bool is_clear(const world *w, const hit *h, const light *l, const light_view *view)
+{
+    if (w->sights == NULL)
+        return false;
+    const size_t index = (size_t)h->mesh->material * (size_t)w->light_count + (size_t)(l - w->lights);
+    const clear_sight sight = (clear_sight)w->sights[index];
+    return light_is_area(l) ? clear_sight_of_flat(sight, h, l) : clear_sight_of_round(sight, h, l, view);
 }
 
 /* rays: room for those that the query then waits for. False: the light does not reach the point, and nothing has to be
@@ -60,6 +70,7 @@ static bool gather_light(const world *w, const hit *h, const shade_point *p, con
         q->irradiance[c] = view->irradiance[c];
     q->weight = 1.0F;
     q->shadow.light = l;
+    q->shadow.is_clear = is_clear(w, h, l, view);
     q->shade.point = p;
     q->shade.is_area = sight == SHADE_SHAPE;
     if (!shade_is_area(&q->shade))
@@ -79,15 +90,21 @@ double direct_cap_error(const light *l, const shade_point *p, vec3 position, lig
     return shade_cap_error(p, cap->wi, cap->sine) + light_round_error(l, cap);
 }
 
-/* A shape that all of the point sees becomes a cap where the view allows that. Up to half of the error that may be all
- * samples take the cap, beyond it ever fewer, so that no seam shows where shapes begin. */
+/* Up to half of the error that may be all samples take the cap, beyond it ever fewer, so that no seam shows where
+ * shapes begin. */
+double direct_cap_share(double error, double most)
+{
+    return error < most ? smaller_of(2.0 - 2.0 * error / most, 1.0) : 0.0;
+}
+
+/* A shape that all of the point sees becomes a cap where the view allows that. */
 static void take_cap(const world *w, const hit *h, light_query *q)
 {
     light_view cap;
     if (q->shade.area.hidden > 0.0F)
         return;
     const double error = direct_cap_error(q->shadow.light, q->shade.point, h->position, &cap), most = w->cap_error;
-    if (!(error < most) || 2.0 * error > most * (1.0 + (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
+    if (!(direct_cap_share(error, most) > 1.0 - (double)q->draw) || !shade_faces(q->shade.point, cap.wi))
         return;
     q->shade.is_area = false;
     q->shade.wi = cap.wi;

@@ -17,6 +17,8 @@ void add_direct_light(const world *w, const hit *h, const shade_point *p, const 
 
 /* About how much a light with a shape would be off as a cap, and the cap: relative, infinite where it cannot be one. */
 double direct_cap_error(const light *l, const shade_point *p, vec3 position, light_view *cap);
+/* The share of samples that take a cap which is off by this where it may be off by so much. */
+double direct_cap_share(double error, double most);
 
 /* ---- many points at once ---- */
 

@@ -3,6 +3,7 @@
 #define PREVIEW_INTEGRATOR_H
 
 #include "preview/camera.h"
+#include "preview/clear_sight.h"
 #include "preview/emitters.h"
 #include "preview/environment.h"
 #include "preview/light_tree.h"
@@ -34,6 +35,7 @@ typedef struct world {
      * blocks. */
     int glint_side;
     uint32_t seed;
+    const uint8_t *sights; /* a clear_sight of each light, material by material; NULL: nothing is proven */
     double cap_error; /* so much may a light with a shape be off where it is taken as round and small; 0: nothing */
 } world;
 

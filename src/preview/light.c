@@ -78,11 +78,14 @@ static double range_factor(double distance, double range)
     return larger_of(1.0 - square * square, 0.0);
 }
 
+/* On a point that all but lies in the light: what is added up of it is still a number. */
+static const double MOST_IRRADIANCE = 1e30;
+
 static bool set_irradiance(const light *l, double factor, light_view *out)
 {
     bool is_any = false;
     for (int c = 0; c < 3; ++c) {
-        out->irradiance[c] = (float)((double)l->intensity[c] * factor);
+        out->irradiance[c] = (float)smaller_of((double)l->intensity[c] * factor, MOST_IRRADIANCE);
         is_any = is_any || out->irradiance[c] > 0.0F;
     }
     return is_any;

@@ -85,22 +85,27 @@ static bool leave(const world *w, path *p, int depth, ray_counts *counts)
     return true;
 }
 
-/* What the ray brings by itself. met: v.found is what it met. False: the path ends. */
+/* What the ray brings by itself. met: v.found is what it met. False: the path ends.
+ *
+ * What glows or surrounds is dark behind a back: that throws a shadow, as rays towards the lights find, and the other
+ * half of what the balance heuristic shares out would be missing. Surfaces that only reflect are seen through it. */
 static bool arrive(const world *w, path *p, bool met, int depth, ray_counts *counts)
 {
     vertex *const v = &p->v;
-    if (!met)
+    const bool dark = v->found.through_back;
+    if (!met && !dark)
         add_escaped_light(w, &v->point, &p->next, p->throughput, p->sum, counts);
     if (!met || depth > w->bounces)
         return false;
     path_look(w, v, p->random, depth);
     v->turn = hit_turn(&v->hit, &v->hit_step);
-    const bool sampled = w->emitters != NULL && add_found_glow(w, &p->left, &p->next, &v->found, &v->hit,
-                                                               v->point.emission, p->throughput, p->sum, counts);
+    const bool sampled =
+        !dark && w->emitters != NULL &&
+        add_found_glow(w, &p->left, &p->next, &v->found, &v->hit, v->point.emission, p->throughput, p->sum, counts);
     for (int c = 0; c < 3; ++c)
         p->throughput[c] *= p->next.weight[c];
     shade_widen(&v->point, differential_half_vector_variance(&v->step, &v->turn));
-    if (!sampled)
+    if (!sampled && !dark)
         add_light(p->sum, p->throughput, v->point.emission);
     return true;
 }

@@ -7,6 +7,7 @@
 typedef struct planned {
     glint_plan *plan;
     materials materials;
+    uint8_t *sights; /* of the world's */
 } planned;
 
 /* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it

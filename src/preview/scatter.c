@@ -198,11 +198,6 @@ shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine)
     return sight;
 }
 
-bool shade_tells_shape(const shade_point *p, vec3 wi, double sine)
-{
-    return shade_see(p, &wi, sine) == SHADE_SHAPE;
-}
-
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
 {
     *to = (glint_area_light){ .kind = from->kind,

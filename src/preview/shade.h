@@ -95,9 +95,8 @@ bool shade_faces_area(const shade_point *p, const shade_area *area);
 /* About how much a round light around wi (world, unit), taken as if all of it came from its middle, is off: relative;
  * infinite where it stands astride a layer's horizon. sine: of its angular radius. */
 double shade_cap_error(const shade_point *p, vec3 wi, double sine);
-/* From which on shade_see says that a light of some size has to be seen as a shape; and whether it does. */
+/* From which on shade_see says that a light of some size has to be seen as a shape. */
 #define SHADE_CAP_ERROR 0.01
-bool shade_tells_shape(const shade_point *p, vec3 wi, double sine);
 /* A light of either kind at a point. */
 typedef struct shade_query {
     const shade_point *point;

@@ -1,21 +1,19 @@
 /* A few hundred pixels, spread evenly over the picture, with a few samples each.
  *
- * Of every light at the first surface it is noted how many facets it lights in the pixel, and which part of the pixel's
- * light that is; of whole samples, what bounces bring and, in survey_noise.c, how much they differ.
+ * Threads look at them (survey_pixel.c), and here what they saw is added up, pixel by pixel in the order of the grid,
+ * so that a plan does not depend on their number. Of every light at the first surface it is noted how many facets it
+ * lights in the pixel, and which part of the pixel's light that is; of whole samples, what bounces bring and, in
+ * survey_noise.c, how much they differ.
  */
 #include "preview/survey.h"
 
 #include <stdlib.h>
 
-#include "preview/choose_lights.h"
-#include "preview/direct.h"
 #include "preview/hash.h"
-#include "preview/sampler.h"
-#include "preview/surroundings.h"
 #include "preview/survey_noise.h"
+#include "preview/survey_pixel.h"
+#include "preview/threads.h"
 
-/* Samples of a pixel that tell what bounces bring. */
-#define SAMPLES 4
 /* Pixels are as many as cost no more than one sample in so many, within limits. Taste. */
 #define RENDERED_FOR_ONE 200
 #define LEAST_PIXELS 256
@@ -24,55 +22,18 @@
  * 720 pixels at a microsecond a sample takes an hour of one core with the most. Taste. */
 #define LEAST_SAMPLES 4
 #define MOST_SAMPLES 4096
-/* Dimensions of the sampler that a path's first vertex does not use. */
-#define DIM_SURVEY 1000000U
 
 typedef struct tally {
-    const world *world, *direct; /* direct: without bounces */
+    const world *world;
+    const uint8_t *sights;
     survey *out;
     int light_count; /* surroundings included */
     int pixels;
-    double square; /* of the light of pixels, and what facets add to that in the mean */
+    double sum, square; /* of the light of pixels; square: and what facets add to that in the mean */
     double bounced, bounce_rays, sky_rays;
 } tally;
 
-static double level(const float rgb[3])
-{
-    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3.0;
-}
-
-/* ---- whole samples ---- */
-
-/* Returns the light of the pixel; 0: it is black. */
-static double look_at_samples(tally *t, int x, int y)
-{
-    double sum = 0.0, direct = 0.0;
-    bool is_surface = false;
-    for (uint32_t i = 0; i < SAMPLES; ++i) {
-        pixel_sample whole, less;
-        ray_counts counts = { 0 }, fewer = { 0 };
-        integrate(t->world, x, y, i, &whole, &counts);
-        less = whole;
-        if (t->world->bounces > 0) {
-            integrate(t->direct, x, y, i, &less, &fewer);
-        } else {
-            fewer = counts;
-        }
-        t->bounce_rays += (double)(counts.bounce_rays - fewer.bounce_rays) / SAMPLES;
-        t->sky_rays += (double)fewer.bounce_rays / SAMPLES;
-        sum += level(whole.light.smooth);
-        direct += level(less.light.smooth);
-        is_surface = is_surface || whole.depth > 0.0F;
-    }
-    /* Where no light comes straight from a light, bounces bring all that there is, however few of them find it. */
-    if (t->world->bounces > 0 && is_surface && !(direct > 0.0))
-        t->bounced += 1.0;
-    else if (sum > 0.0)
-        t->bounced += (sum - direct) * (sum - direct) / (sum * sum);
-    return sum / SAMPLES;
-}
-
-/* ---- lights at the first surface ---- */
+/* ---- adding up ---- */
 
 /* The pair of a material and a light, empty when it is seen for the first time. */
 static glint_plan_pair *pair_of(tally *t, int material, int index)
@@ -82,137 +43,74 @@ static glint_plan_pair *pair_of(tally *t, int material, int index)
         glint_plan_pair *const pair = &t->out->pairs[t->out->summary.pair_count++];
         pair->material = (uint32_t)material;
         pair->light = (uint32_t)index;
+        pair->is_clear = index < t->world->light_count &&
+                         t->sights[(size_t)material * (size_t)t->world->light_count + (size_t)index] != CLEAR_UNKNOWN;
         *known = t->out->summary.pair_count;
     }
     return &t->out->pairs[*known - 1U];
 }
 
-/* What one light brings there; index light_count of the world: its surroundings. */
-static radiance look_at_light(const world *w, int index, bool shadowed, const vertex *v, const sampler *random,
-                              direct_facets *facets, ray_counts *counts)
+/* What caps are off is the mean over samples that take them and samples that do not; so is what they turn on and off.
+ */
+static void add_shape(tally *t, const survey_light *l, glint_plan_pair *pair, float evals, double part, double sparks)
 {
-    static const float all[3] = { 1.0F, 1.0F, 1.0F };
-    radiance sum = { 0 };
-    if (index == w->light_count) {
-        add_glow(w, &v->hit, &v->point, random, DIM_SURVEY, all, &sum, facets, counts);
-        add_surroundings(w, &v->hit, &v->point, random, DIM_SURVEY + 1U, all, &sum, facets, counts);
-        return sum;
-    }
-    light own = w->lights[index];
-    world alone = *w;
-    own.unshadowed = !shadowed;
-    alone.lights = &own;
-    alone.light_count = 1;
-    add_direct_light(&alone, &v->hit, &v->point, random, DIM_SURVEY, all, &sum, facets, counts);
-    return sum;
-}
-
-/* In which entry of a pair's shapes an evaluation there belongs; negative: in none. */
-static int shape_of(const world *w, int index, const vertex *v)
-{
-    light_view view;
-    if (index == w->light_count)
-        return -1;
-    const light *const l = &w->lights[index];
-    const double error = direct_cap_error(l, &v->point, v->hit.position, &view);
-    if (!light_is_area(l) && (!light_see(l, v->hit.position, &view) || !(view.sine > 0.0) || error <= SHADE_CAP_ERROR))
-        return -1;
-    int k = 0;
-    while (k < GLINT_PLAN_SHAPES - 1 && error > ldexp(SHADE_CAP_ERROR, k))
-        ++k;
-    return k;
-}
-
-static void note_shape(tally *t, int entry, glint_plan_pair *pair, float evals, double part, double sparks)
-{
-    if (entry < 0)
+    if (l->shape < 0)
         return;
+    glint_plan_shape *const to = &pair->shapes[l->shape];
+    survey_sparks *const all = &t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + l->shape];
+    const double square = l->cap_off * l->cap_off * part, share = l->cap_share * l->cap_share;
     t->out->lights[pair->light].kind = GLINT_PLAN_LIGHT_SHAPE;
-    pair->shapes[entry].seen += evals;
-    pair->shapes[entry].part += (float)part;
-    t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + entry] += sparks;
+    to->seen += evals;
+    to->part += (float)part;
+    to->cap += (float)square;
+    to->last_cap += (float)(share * square);
+    all->whole += sparks;
+    all->last += share * sparks;
 }
 
-/* Of many lights a render chooses some, and we look at those: as often as it evaluates them, each for those that it
- * stands for. */
-static void note_light(tally *t, int index, double probability, const vertex *v, const sampler *random, double pixel)
+static void add_light(tally *t, const survey_pixel *from, const survey_light *l)
 {
-    const world *const w = t->world;
-    glint_plan_light *const to = &t->out->lights[index];
-    glint_plan_pair *const pair = pair_of(t, v->hit.mesh->material, index);
-    direct_facets facets = { 0 }, unused = { 0 };
-    ray_counts counts = { 0 }, none = { 0 };
-    const radiance seen = look_at_light(w, index, true, v, random, &facets, &counts);
-    if (index < w->light_count && counts.shadow_rays > 0) {
-        const radiance all = look_at_light(w, index, false, v, random, &unused, &none);
-        to->shadow_rays += (uint32_t)counts.shadow_rays;
-        to->blocked_rays += level(seen.smooth) < level(all.smooth);
-    }
-    const double bright = level(seen.smooth), share = bright / pixel, part = share * share / probability;
-    const double tiles = (double)w->glint_side * (double)w->glint_side;
-    const double lit = (double)facets.count * tiles * (double)facets.lit_probability;
-    const double sparks = lit > 0.0 ? bright * bright / (lit * probability) : 0.0;
-    const float evals = (float)(counts.glint_evals + counts.smooth_evals);
+    glint_plan_light *const to = &t->out->lights[l->index];
+    glint_plan_pair *const pair = pair_of(t, from->material, l->index);
+    const double share = l->level / from->level, part = share * share / l->probability;
+    const double sparks = l->lit > 0.0 ? l->level * l->level / (l->lit * l->probability) : 0.0;
+    const float evals = (float)(l->glint_evals + l->smooth_evals);
+    to->shadow_rays += (uint32_t)l->shadow_rays;
+    to->blocked_rays += l->is_blocked;
     t->square += sparks;
     pair->seen += evals;
-    note_shape(t, shape_of(w, index, v), pair, evals, part, sparks);
-    if (!(facets.count > 0.0F))
+    pair->shadow_rays += (float)l->shadow_rays;
+    add_shape(t, l, pair, evals, part, sparks);
+    if (!l->counts)
         return;
-    const uint32_t bin = glint_plan_bin((float)lit);
+    const uint32_t bin = glint_plan_bin((float)l->lit);
     pair->share[bin] += (float)part;
-    pair->rate[bin] += (float)counts.glint_evals;
+    pair->rate[bin] += (float)l->glint_evals;
 }
 
-static void widen(glint_plan_range *range, float x)
+static void join(glint_plan_range *all, glint_plan_range one)
 {
-    range->least = fminf(range->least, x);
-    range->most = fmaxf(range->most, x);
+    all->least = fminf(all->least, one.least);
+    all->most = fmaxf(all->most, one.most);
 }
 
-static void note_surface(tally *t, const vertex *v)
+static void add_pixel(tally *t, const survey_pixel *from)
 {
-    glint_plan_material *const m = &t->out->materials[v->hit.mesh->material];
-    const float tiles = (float)(t->world->glint_side * t->world->glint_side);
-    m->seen += 1.0F;
-    for (int i = 0; i < v->point.layer_count; ++i) {
-        const shade_layer *const layer = &v->point.layers[i];
-        widen(&m->alpha, layer->surface.alpha_x);
-        widen(&m->alpha, layer->surface.alpha_y);
-        if (!layer->counts)
-            continue;
-        const glint_footprint *const f = &layer->footprint;
-        widen(&m->facets_per_m2, layer->surface.facets_per_m2);
-        widen(&m->footprint_m2, tiles * fabsf(f->dudx * f->dvdy - f->dudy * f->dvdx));
-    }
-}
-
-static int lights_of_pixel(const world *w, const vertex *v, const sampler *random, chosen_light lights[MOST_LIGHTS])
-{
-    if (w->light_count > MOST_LIGHTS)
-        return lights_choose(w->light_tree, &v->point, v->hit.position, random, DIM_SURVEY + 2U, lights);
-    for (int i = 0; i < w->light_count; ++i)
-        lights[i] = (chosen_light){ i, 1.0F };
-    return w->light_count;
-}
-
-static void look_at_pixel(tally *t, int x, int y)
-{
-    vertex v;
-    const double pixel = look_at_samples(t, x, y);
     ++t->pixels;
-    t->square += pixel * pixel;
-    if (!(pixel > 0.0) || !integrate_first(t->world, x, y, 0, &v))
+    t->sum += from->level;
+    t->square += from->level * from->level;
+    t->bounced += from->bounced;
+    t->bounce_rays += from->bounce_rays;
+    t->sky_rays += from->sky_rays;
+    if (from->material < 0)
         return;
-    const sampler random = sampler_make(x, y, 0, t->world->seed);
-    note_surface(t, &v);
-    if (v.point.layer_count == 0)
-        return;
-    chosen_light lights[MOST_LIGHTS];
-    const int count = lights_of_pixel(t->world, &v, &random, lights);
-    for (int i = 0; i < count; ++i)
-        note_light(t, lights[i].index, (double)lights[i].probability, &v, &random, pixel);
-    if (t->light_count > t->world->light_count)
-        note_light(t, t->world->light_count, 1.0, &v, &random, pixel);
+    glint_plan_material *const m = &t->out->materials[from->material];
+    m->seen += 1.0F;
+    join(&m->alpha, from->alpha);
+    join(&m->facets_per_m2, from->facets_per_m2);
+    join(&m->footprint_m2, from->footprint_m2);
+    for (int i = 0; i < from->light_count; ++i)
+        add_light(t, from, &from->lights[i]);
 }
 
 /* ---- the summary ---- */
@@ -235,11 +133,16 @@ static void end_pairs(survey *s, const tally *t)
         if (!(pair.seen > 0.0F))
             continue;
         pair.seen *= inverse;
+        pair.shadow_rays *= inverse;
         for (int k = 0; k < GLINT_PLAN_SHAPES; ++k) {
-            const double sparks = s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
-            pair.shapes[k].seen *= inverse;
-            pair.shapes[k].part *= inverse;
-            pair.shapes[k].sparks = t->square > 0.0 ? (float)(sparks / t->square) : 0.0F;
+            const survey_sparks *const sparks = &s->sparks[i * GLINT_PLAN_SHAPES + (uint32_t)k];
+            glint_plan_shape *const to = &pair.shapes[k];
+            to->seen *= inverse;
+            to->part *= inverse;
+            to->cap *= inverse;
+            to->last_cap *= inverse;
+            to->sparks = t->square > 0.0 ? (float)(sparks->whole / t->square) : 0.0F;
+            to->last_sparks = t->square > 0.0 ? (float)(sparks->last / t->square) : 0.0F;
         }
         for (int b = 0; b < GLINT_PLAN_BINS; ++b) {
             pair.share[b] *= inverse;
@@ -292,6 +195,8 @@ static void end(survey *s, const tally *t, const survey_noise *noise, const prev
         return;
     end_pairs(s, t);
     end_samples(s, t, noise, o);
+    if (t->sum > 0.0)
+        to->contrast = (float)fmax(t->square * t->pixels / (t->sum * t->sum), 1.0);
     to->bounce_rays = (float)fmax(t->bounce_rays / t->pixels, 0.0);
     to->sky_rays = (float)(t->sky_rays / t->pixels);
     to->bounced = (float)sqrt(fmax(t->bounced / t->pixels, 0.0));
@@ -308,7 +213,7 @@ static int noise_samples(const preview_options *o)
 /* Columns and rows of pixels to look at. */
 static void choose_grid(const world *w, const preview_options *o, int *columns, int *rows)
 {
-    const double pixels = (double)o->width * o->height, each = 2 * (SAMPLES + noise_samples(o));
+    const double pixels = (double)o->width * o->height, each = 2 * (SURVEY_SAMPLES + noise_samples(o));
     const double wanted = fmin(fmax(pixels * w->spp / RENDERED_FOR_ONE / each, LEAST_PIXELS), MOST_PIXELS);
     *columns = (int)fmin(fmax(sqrt(wanted * o->width / o->height), 1.0), o->width);
     *rows = (int)fmin(fmax(wanted / *columns, 1.0), o->height);
@@ -323,37 +228,61 @@ static survey_place place_in(int column, int row, int columns, int rows, const p
     return (survey_place){ (int)(u * o->width), (int)(v * o->height) };
 }
 
+/* What the threads read, and where each pixel goes. */
+typedef struct task {
+    const world *whole, *direct; /* direct: without bounces */
+    const survey_place *places;
+    survey_pixel *pixels;
+} task;
+
+static void look_at_one(void *user, int index)
+{
+    const task *const t = user;
+    survey_pixel_look(t->whole, t->direct, t->places[index].x, t->places[index].y, &t->pixels[index]);
+}
+
+static void look_at_all(tally *t, const preview_options *o, const survey_place *places, survey_pixel *pixels, int count)
+{
+    world direct = *t->world;
+    direct.bounces = 0;
+    direct.emitters = NULL;
+    task shared = { .whole = t->world, .direct = &direct, .places = places, .pixels = pixels };
+    threads_each(o->threads, count, look_at_one, &shared);
+    for (int i = 0; i < count; ++i)
+        add_pixel(t, &pixels[i]);
+}
+
 static bool look(tally *t, const preview_options *o, int columns, int rows, report *r)
 {
     survey_noise noise;
-    survey_place *const places = calloc((size_t)columns * (size_t)rows, sizeof *places);
-    if (places == NULL)
-        return report_error(r, "no memory to look at %d x %d pixels", columns, rows);
-    for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-            survey_place *const at = &places[y * columns + x];
-            *at = place_in(x, y, columns, rows, o);
-            look_at_pixel(t, at->x, at->y);
-        }
-    }
-    const double enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0;
-    const bool done = survey_noise_measure(t->world, places, t->pixels, noise_samples(o), enough, &noise, r);
+    const int count = columns * rows;
+    survey_place *const places = calloc((size_t)count, sizeof *places);
+    survey_pixel *const pixels = calloc((size_t)count, sizeof *pixels);
+    bool done = places != NULL && pixels != NULL;
+    if (!done)
+        report_error(r, "no memory to look at %d x %d pixels", columns, rows);
+    for (int i = 0; done && i < count; ++i)
+        places[i] = place_in(i % columns, i / columns, columns, rows, o);
+    if (done)
+        look_at_all(t, o, places, pixels, count);
+    const survey_noise_limits limits = { .samples = noise_samples(o),
+                                         .enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0,
+                                         .threads = o->threads };
+    done = done && survey_noise_measure(t->world, places, count, &limits, &noise, r);
     free(places);
+    free(pixels);
     if (done)
         end(t->out, t, &noise, o);
     return done;
 }
 
-bool survey_make(const world *w, const preview_options *o, survey *out, report *r)
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r)
 {
-    world direct = *w;
-    tally t = { .world = w, .direct = &direct, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
+    tally t = { .world = w, .sights = sights, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
     int columns, rows;
     choose_grid(w, o, &columns, &rows);
     if (!survey_begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
         return false;
-    direct.bounces = 0;
-    direct.emitters = NULL;
     if (look(&t, o, columns, rows, r))
         return true;
     survey_free(out);

@@ -4,9 +4,17 @@
 
 #include "preview/integrator.h"
 
+/* Of a pixel, that tell what bounces bring. */
+enum { SURVEY_SAMPLES = 4 };
+
 typedef struct survey_name {
     char text[56];
 } survey_name;
+
+/* Sum over the pixels of light^2 / (N p); last: see glint_plan_shape. */
+typedef struct survey_sparks {
+    double whole, last;
+} survey_sparks;
 
 typedef struct survey {
     glint_plan_summary summary;      /* points to the others */
@@ -14,13 +22,14 @@ typedef struct survey {
     glint_plan_material *materials;
     glint_plan_light *lights; /* those of the world, then surroundings where there are any */
     glint_plan_pair *pairs;
-    double *sparks;    /* of each pair's shapes: sum over the pixels of light^2 / (N p) */
-    uint32_t *pair_of; /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
+    survey_sparks *sparks; /* of each pair's shapes */
+    uint32_t *pair_of;     /* of a material and a light: the number of their pair, from 1 on; 0: not seen */
     survey_name *light_names;
 } survey;
 
-/* w leaves nothing out. The same for every number of threads and for every tile of a picture. */
-bool survey_make(const world *w, const preview_options *o, survey *out, report *r);
+/* w leaves nothing out. sights: what is proven of its lights. The same for every number of threads and for every
+ * tile of a picture. */
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r);
 void survey_free(survey *s);
 
 /* survey_scene.c: materials and lights, and room for as many pairs of them as can be seen. On failure *out is zeroed.

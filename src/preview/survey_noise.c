@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "preview/hash.h"
+#include "preview/threads.h"
 
 enum { SEQUENCES = 2, MOST_LEVELS = 4 }; /* levels: of 4^k samples, up to SURVEY_MOST_SAMPLES */
 
@@ -32,15 +33,25 @@ static double level(const float rgb[3])
     return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3.0;
 }
 
-static void add_samples(const world *w, const survey_place *at, uint32_t first, uint32_t last, pixel_sums *sums)
+/* What the threads read, and where each pixel's sums are. */
+typedef struct task {
+    const world *world;
+    const survey_place *places;
+    pixel_sums *sums;
+    uint32_t first, end; /* samples to be taken */
+} task;
+
+static void add_samples(void *user, int index)
 {
-    world own = *w;
+    const task *const t = user;
+    world own = *t->world;
+    pixel_sums *const sums = &t->sums[index];
     for (int k = 0; k < SEQUENCES; ++k) {
-        own.seed = hash_combine(w->seed, (uint32_t)k + 1U);
-        for (uint32_t i = first; i < last; ++i) {
+        own.seed = hash_combine(t->world->seed, (uint32_t)k + 1U);
+        for (uint32_t i = t->first; i < t->end; ++i) {
             pixel_sample sample;
             ray_counts unused = { 0 };
-            integrate(&own, at->x, at->y, i, &sample, &unused);
+            integrate(&own, t->places[index].x, t->places[index].y, i, &sample, &unused);
             sums->discrete[k] += level(sample.light.discrete);
             sums->smooth[k] += level(sample.light.smooth);
         }
@@ -92,7 +103,7 @@ static void conclude(const level_moments *smooth, const level_moments *discrete,
         out->fall = fmin(fmax(0.5 * log2(before / after), LEAST_FALL), MOST_FALL);
 }
 
-bool survey_noise_measure(const world *w, const survey_place *places, int count, int most, double enough,
+bool survey_noise_measure(const world *w, const survey_place *places, int count, const survey_noise_limits *limits,
                           survey_noise *out, report *r)
 {
     level_moments smooth[MOST_LEVELS], discrete[MOST_LEVELS];
@@ -101,14 +112,13 @@ bool survey_noise_measure(const world *w, const survey_place *places, int count,
     pixel_sums *const sums = calloc((size_t)count, sizeof *sums);
     if (sums == NULL)
         return report_error(r, "no memory to look at %d pixels", count);
-    for (int k = 0; k < MOST_LEVELS && 1 << (2 * k) <= most; ++k) {
-        const uint32_t first = k == 0 ? 0U : 1U << (2 * (k - 1)), end = 1U << (2 * k);
-        for (int i = 0; i < count; ++i)
-            add_samples(w, &places[i], first, end, &sums[i]);
+    for (int k = 0; k < MOST_LEVELS && 1 << (2 * k) <= limits->samples; ++k) {
+        task shared = { w, places, sums, k == 0 ? 0U : 1U << (2 * (k - 1)), 1U << (2 * k) };
+        threads_each(limits->threads, count, add_samples, &shared);
         smooth[k] = variance_of(sums, count, false);
         discrete[k] = variance_of(sums, count, true);
         last = k;
-        if (end >= (uint32_t)tiles && discrete[k].mean <= enough * enough)
+        if (shared.end >= (uint32_t)tiles && discrete[k].mean <= limits->enough * limits->enough)
             break;
     }
     free(sums);

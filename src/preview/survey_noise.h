@@ -15,10 +15,16 @@ typedef struct survey_noise {
     double spread; /* standard error of the variance, relative */
 } survey_noise;
 
-/* Takes up to `most` samples (a power of 4 is used up to SURVEY_MOST_SAMPLES), and no more once they leave less than
- * `enough`. False: no memory. */
 enum { SURVEY_MOST_SAMPLES = 64 };
-bool survey_noise_measure(const world *w, const survey_place *places, int count, int most, double enough,
+
+typedef struct survey_noise_limits {
+    int samples;   /* at most so many are taken: a power of 4, up to SURVEY_MOST_SAMPLES */
+    double enough; /* no more once they leave less */
+    int threads;   /* 0: one a core */
+} survey_noise_limits;
+
+/* False: no memory. */
+bool survey_noise_measure(const world *w, const survey_place *places, int count, const survey_noise_limits *limits,
                           survey_noise *out, report *r);
 
 #endif

@@ -2,16 +2,14 @@
 #include "preview/tiles.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "preview/block.h"
+#include "preview/threads.h"
 
 #define TILE_SIZE (2 * BLOCK_SIDE)
-#define MOST_THREADS 256
 #define PROGRESS_INTERVAL_S 0.1
 
 typedef struct queue {
@@ -24,12 +22,15 @@ typedef struct queue {
 
 /* A cache line apart, so that counting does not slow the neighbours down. */
 typedef struct worker {
-    _Alignas(64) queue *queue;
-    ray_counts counts;
-    pthread_t thread;
+    _Alignas(64) ray_counts counts;
     block block;
     film_pixel pixels[BLOCK_PIXELS];
 } worker;
+
+typedef struct crew {
+    queue queue;
+    worker *workers;
+} crew;
 
 static double now_s(void)
 {
@@ -110,11 +111,10 @@ static void work(queue *q, worker *own, bool reports)
     }
 }
 
-static void *run(void *argument)
+static void run(void *user, int thread)
 {
-    worker *const w = argument;
-    work(w->queue, w, false);
-    return NULL;
+    crew *const c = user;
+    work(&c->queue, &c->workers[thread], thread == 0);
 }
 
 static void add_counts(ray_counts *sum, const ray_counts *part)
@@ -126,14 +126,6 @@ static void add_counts(ray_counts *sum, const ray_counts *part)
     sum->smooth_evals += part->smooth_evals;
     sum->over_limit += part->over_limit;
     sum->most_facets = fmaxf(sum->most_facets, part->most_facets);
-}
-
-static int thread_count(const tiles_job *job, int tile_count)
-{
-    long count = job->options->threads > 0 ? job->options->threads : sysconf(_SC_NPROCESSORS_ONLN);
-    count = count < MOST_THREADS ? count : MOST_THREADS;
-    count = count < tile_count ? count : tile_count;
-    return count > 1 ? (int)count : 1;
 }
 
 static queue queue_of(const tiles_job *job)
@@ -152,31 +144,22 @@ static queue queue_of(const tiles_job *job)
     return q;
 }
 
-/* All that the threads work on is here before the first tile. The calling thread is the first of them. */
+/* All that the threads work on is here before the first tile. */
 bool tiles_render(const tiles_job *job, ray_counts *counts, report *r)
 {
-    queue q = queue_of(job);
-    const int wanted = thread_count(job, q.tile_count);
-    worker *const workers = aligned_alloc(_Alignof(worker), (size_t)wanted * sizeof *workers);
-    if (workers == NULL)
-        return report_error(r, "no memory for %d threads", wanted);
-
-    /* A thread that the system refuses leaves its share to the others. */
-    int started = 1;
-    for (int i = 0; i < wanted; ++i) {
-        workers[i].queue = &q;
-        workers[i].counts = (ray_counts){ 0 };
-    }
-    while (started < wanted && pthread_create(&workers[started].thread, NULL, run, &workers[started]) == 0)
-        ++started;
-    work(&q, &workers[0], true);
-    for (int i = 1; i < started; ++i)
-        pthread_join(workers[i].thread, NULL);
-    for (int i = 0; i < started; ++i)
-        add_counts(counts, &workers[i].counts);
-    free(workers);
+    crew c = { .queue = queue_of(job) };
+    const int count = threads_count(job->options->threads, c.queue.tile_count);
+    c.workers = aligned_alloc(_Alignof(worker), (size_t)count * sizeof *c.workers);
+    if (c.workers == NULL)
+        return report_error(r, "no memory for %d threads", count);
+    for (int i = 0; i < count; ++i)
+        c.workers[i].counts = (ray_counts){ 0 };
+    threads_run(count, run, &c);
+    for (int i = 0; i < count; ++i)
+        add_counts(counts, &c.workers[i].counts);
+    free(c.workers);
     double reported_s = 0.0;
     if (!cancelled(job))
-        report_progress(&q, &reported_s);
+        report_progress(&c.queue, &reported_s);
     return !cancelled(job);
 }

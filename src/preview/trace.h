@@ -17,6 +17,7 @@ typedef struct trace_hit {
     uint32_t triangle;
     double distance;   /* metres */
     double weights[2]; /* of the triangle's corners 1 and 2 */
+    bool through_back; /* a back that throws a shadow lies before it: set where nothing is hit, too */
 } trace_hit;
 
 /* Opacity in [0, 1] of a point; asked only for triangles whose material masks or blends. Called by any thread. */

@@ -2,6 +2,7 @@
 #include "preview/trace.h"
 
 #include <embree3/rtcore.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,6 +35,7 @@ typedef struct query {
     const trace_ray *const *rays; /* by Embree's id of a ray */
     trace_blending blending;
     bool shadow;
+    float nearest_back[TRACE_PACKET]; /* that the ray passed, by its id; not set of shadows */
 } query;
 
 /* Whether a blended surface stops this ray. The draw belongs to the triangle and the ray, not to the order in which
@@ -61,16 +63,10 @@ static uint32_t member_bits(const void *packet, unsigned n, unsigned which, unsi
     return ((const uint32_t *)packet)[which * n + i];
 }
 
-/* Whether ray i of n is stopped by what it meets. */
-static bool accepts(const query *q, const mesh_geometry *mesh, const struct RTCFilterFunctionNArguments *a, unsigned i)
+static bool stops_by_opacity(const query *q, const mesh_geometry *mesh, const struct RTCFilterFunctionNArguments *a,
+                             unsigned i)
 {
     const unsigned n = a->N;
-    /* Both vectors are in the object's space, where counter-clockwise is the front whatever the node's transform. */
-    float facing = 0.0F;
-    for (unsigned k = 0; k < 3; ++k)
-        facing += member(a->hit, n, HIT_NORMAL + k, i) * member(a->ray, n, RAY_DIRECTION + k, i);
-    if (!mesh->double_sided && !q->shadow && facing > 0.0F)
-        return false;
     if (mesh->alpha_mode == SCENE_ALPHA_OPAQUE)
         return true;
 
@@ -84,9 +80,26 @@ static bool accepts(const query *q, const mesh_geometry *mesh, const struct RTCF
     return stops(q, mesh, exact, &at);
 }
 
+/* Whether ray i of n is stopped by what it meets. */
+static bool accepts(query *q, const mesh_geometry *mesh, const struct RTCFilterFunctionNArguments *a, unsigned i)
+{
+    const unsigned n = a->N;
+    /* Both vectors are in the object's space, where counter-clockwise is the front whatever the node's transform. */
+    float facing = 0.0F;
+    for (unsigned k = 0; k < 3; ++k)
+        facing += member(a->hit, n, HIT_NORMAL + k, i) * member(a->ray, n, RAY_DIRECTION + k, i);
+    const bool stopped = stops_by_opacity(q, mesh, a, i);
+    if (mesh->double_sided || q->shadow || !(facing > 0.0F))
+        return stopped;
+    float *const back = &q->nearest_back[member_bits(a->ray, n, RAY_ID, i)];
+    if (stopped)
+        *back = fminf(*back, member(a->ray, n, RAY_FAR, i));
+    return false;
+}
+
 static void filter(const struct RTCFilterFunctionNArguments *arguments)
 {
-    const query *const q = (const query *)(const void *)arguments->context;
+    query *const q = (query *)(void *)arguments->context;
     for (unsigned i = 0; i < arguments->N; ++i)
         if (arguments->valid[i] == -1 && !accepts(q, arguments->geometryUserPtr, arguments, i))
             arguments->valid[i] = 0;
@@ -226,6 +239,8 @@ static query make_query(const trace_scene *t, const trace_ray *const *rays, trac
 {
     query q = { .scene = t, .rays = rays, .blending = blending, .shadow = shadow };
     rtcInitIntersectContext(&q.context);
+    for (int i = 0; !shadow && i < TRACE_PACKET; ++i)
+        q.nearest_back[i] = INFINITY;
     return q;
 }
 
@@ -237,6 +252,9 @@ static trace_hit exact_hit(const trace_scene *t, const trace_ray *ray, const tra
     return hit;
 }
 
+/* A back so close to what is hit is its other side: shadow rays towards it end there, too. */
+#define BEFORE 0.9999F
+
 bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending blending, trace_hit *hit)
 {
     query q = make_query(t, &ray, blending, false);
@@ -244,6 +262,8 @@ bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending bl
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(t->top, &q.context, &found);
+    const bool through_back = q.nearest_back[0] < BEFORE * found.ray.tfar;
+    hit->through_back = through_back;
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
     const trace_hit rough = { .instance = (int)found.hit.instID[0],
@@ -251,6 +271,7 @@ bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending bl
                               .distance = (double)found.ray.tfar,
                               .weights = { (double)found.hit.u, (double)found.hit.v } };
     *hit = exact_hit(t, ray, &rough);
+    hit->through_back = through_back;
     return true;
 }
 
@@ -309,13 +330,18 @@ uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[
 
     uint32_t hit = 0;
     for (int i = 0; i < TRACE_PACKET; ++i) {
-        if (rays[i] == NULL || found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+        if (rays[i] == NULL)
+            continue;
+        const bool through_back = q.nearest_back[i] < BEFORE * found.ray.tfar[i];
+        hits[i].through_back = through_back;
+        if (found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
             continue;
         const trace_hit rough = { .instance = (int)found.hit.instID[0][i],
                                   .triangle = found.hit.primID[i],
                                   .distance = (double)found.ray.tfar[i],
                                   .weights = { (double)found.hit.u[i], (double)found.hit.v[i] } };
         hits[i] = exact_hit(t, rays[i], &rough);
+        hits[i].through_back = through_back;
         hit |= 1U << i;
     }
     return hit;
@@ -351,6 +377,7 @@ void trace_closest_many(const trace_scene *t, const trace_ray *const *rays, int 
             met[first + i] = any >> i & 1U;
             if (met[first + i])
                 hits[first + i] = found[i];
+            hits[first + i].through_back = found[i].through_back;
         }
     }
 }

@@ -21,7 +21,8 @@ static float mixf(float a, float b, float t)
 
 static float alpha_of(float roughness)
 {
-    return clampf(roughness * roughness, ALPHA_MIN, 1.0F);
+    const float r = clampf(roughness, 0.0F, 1.0F);
+    return fmaxf(r * r, ALPHA_MIN);
 }
 
 static bool has_glints(const scene_material *m, scene_glint_layer layer)

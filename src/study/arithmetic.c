@@ -120,12 +120,6 @@ static void fill(points_store *s)
     }
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 typedef struct kernel_race {
     double cost_ns[2], differs, differs_visibly;
 } kernel_race;
@@ -141,10 +135,8 @@ static void race(points_store *s, counting_kernel *const kernels[2], kernel_race
             kernels[k](&points, POINTS, s->factor[k], s->facets);
             times[k][round] = (study_cpu_s() - start) * 1e9 / POINTS;
         }
-    for (int k = 0; k < 2; k++) {
-        qsort(times[k], ROUNDS, sizeof times[k][0], compare_doubles);
-        out->cost_ns[k] = times[k][ROUNDS / 2];
-    }
+    for (int k = 0; k < 2; k++)
+        out->cost_ns[k] = study_median(times[k], ROUNDS);
     for (int i = 0; i < POINTS; i++) {
         const float a = s->factor[0][i], b = s->factor[1][i];
         /* Neither is negative or no number, so other bits are another number. */

@@ -13,17 +13,36 @@ double study_cpu_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void study_sort(double *values, int count)
+{
+    qsort(values, (size_t)count, sizeof *values, by_value);
+}
+
+double study_median(double *values, int count)
+{
+    study_sort(values, count);
+    return values[count / 2];
+}
+
 static int by_cost(const void *a, const void *b)
 {
     const study_setting *const x = a, *const y = b;
-    return (x->cost > y->cost) - (x->cost < y->cost);
+    const int cost = (x->cost > y->cost) - (x->cost < y->cost);
+    return cost != 0 ? cost : (x->error > y->error) - (x->error < y->error);
 }
 
+/* Errors within a thousandth of each other are the same: what costs less stands for them. */
 static void mark_front(study_setting *settings, int count)
 {
     double nearest = (double)INFINITY;
     for (int i = 0; i < count; ++i) {
-        settings[i].on_front = settings[i].error < nearest;
+        settings[i].on_front = settings[i].error < 0.999 * nearest;
         nearest = fmin(nearest, settings[i].error);
     }
 }

@@ -170,12 +170,6 @@ static void measure_samples(study_run *run, int which, const scene *s, const siz
     image_free(&truth);
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* All budgets in turns, and none, against one picture of everything; the time is the median of their rounds. False
  * after a failure. */
 static bool take_turns(study_run *run, const scene *s, const size_of_study *size, const image *whole,
@@ -189,10 +183,8 @@ static bool take_turns(study_run *run, const scene *s, const size_of_study *size
                 return false;
             times[i][round] = found[i].cost_s;
         }
-    for (int i = 0; i <= ACCURACIES; i++) {
-        qsort(times[i], (size_t)size->rounds, sizeof times[i][0], compare_doubles);
-        found[i].cost_s = times[i][size->rounds / 2];
-    }
+    for (int i = 0; i <= ACCURACIES; i++)
+        found[i].cost_s = study_median(times[i], size->rounds);
     return true;
 }
 
@@ -232,9 +224,9 @@ static void check_samples(study_run *run, const size_of_study *size, picture_err
     static char names[IMAGES_SCENES][SAMPLES][48];
     const int last = size->most - 1;
     for (int k = 0; k < IMAGES_SCENES; k++)
-        study_check(run, found[k][last].error < found[k][1].error / 2.0 && found[k][last].cost_s > found[k][0].cost_s,
-                    "%s: 4 samples are %.3f off, %d samples %.3f", images_names[k], found[k][1].error, samples_of[last],
-                    found[k][last].error);
+        study_check(run, found[k][last].error < found[k][1].error / 2.0,
+                    "%s: the error is %.2f of the mean light with 4 samples a pixel, %.3f with %d", images_names[k],
+                    found[k][1].error, found[k][last].error, samples_of[last]);
     study_setting settings[SAMPLES];
     for (int i = 0; i < size->most; i++) {
         snprintf(names[0][i], sizeof names[0][i], "%d sample%s", samples_of[i], samples_of[i] == 1 ? "" : "s");
@@ -267,7 +259,7 @@ static void check_accuracies(study_run *run, picture_error (*found)[ACCURACIES +
             if (found[k][i].error / accuracies[i] > found[k][worst].error / accuracies[worst])
                 worst = i;
         }
-        study_check(run, share <= 1.0, "%s: --accuracy %g leaves out most for its budget, %.4f ± %.4f of the light",
+        study_check(run, share <= 1.0, "%s: --accuracy %g leaves out most for its budget, %.4f ± %.4f of the picture",
                     images_names[k], accuracies[worst], found[k][worst].error, found[k][worst].bar);
     }
     study_setting settings[ACCURACIES + 1];
@@ -300,6 +292,10 @@ static void measure(study_run *run)
     study_end_table(run);
     if (stopped(run))
         return;
+    study_note(run,
+               "near-sparse: a plane near by, black but for a few sparks, under a lamp; far-dense: one that runs to "
+               "the horizon with millions of flakes, under the sun; area-lit: a ball under a square lamp; layered: a "
+               "ball with glints below and in its coat, under it");
     check_samples(run, &size, samples);
     check_accuracies(run, budgets);
 }

@@ -149,7 +149,8 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     put_between(f, "<section id=\"", o->study->name, "\">\n");
     put_between(f, "<h2>", o->study->title, "</h2>\n");
     put_between(f, "<p class=\"truth\">Held against: ", o->study->truth, ".</p>\n");
-    put_between(f, "<p class=\"choose\"><strong>Choose</strong> ", o->study->choose, "</p>\n<ul class=\"found\">\n");
+    put_between(f, "<p class=\"choose\"><strong>Choose</strong> ", study_outcome_choose(o),
+                "</p>\n<ul class=\"found\">\n");
     for (size_t i = 0; i < o->line_count; ++i) {
         const study_line *const line = &o->lines[i];
         put(f, !line->is_check ? "<li>" : line->holds ? "<li class=\"holds\">" : "<li class=\"fails\">");
@@ -168,6 +169,15 @@ static void put_study(output_file *f, const char *folder, const study_outcome *o
     put(f, "</p>\n</section>\n");
 }
 
+/* Whole pictures come first, which whoever renders asks for; then what they are made of. */
+static const study_outcome *in_order(const study_outcome *outcomes, size_t count, size_t i)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (outcomes[k].study == studies[STUDY_IMAGES])
+            return i == 0 ? &outcomes[k] : &outcomes[i <= k ? i - 1 : i];
+    return &outcomes[i];
+}
+
 /* What the whole says on its first page: for each study what to choose, and how it went. */
 static void put_summary(output_file *f, const study_outcome *outcomes, size_t count)
 {
@@ -175,10 +185,10 @@ static void put_summary(output_file *f, const study_outcome *outcomes, size_t co
     put(f, "<div class=\"wide\"><table class=\"summary\">\n<tr><th>Study</th><th>Choose</th><th>Bounds that hold</th>"
            "<th>Took</th></tr>\n");
     for (size_t i = 0; i < count; ++i) {
-        const study_outcome *const o = &outcomes[i];
+        const study_outcome *const o = in_order(outcomes, count, i);
         put_between(f, "<tr><td><a href=\"#", o->study->name, "\">");
         put_between(f, "", o->study->title, "</a></td><td>");
-        put_between(f, "", o->study->choose, o->failed ? "</td><td class=\"fails\">" : "</td><td>");
+        put_between(f, "", study_outcome_choose(o), o->failed ? "</td><td class=\"fails\">" : "</td><td>");
         snprintf(number, sizeof number, "%d of %d", o->checks - o->failed, o->checks);
         put_all(f, "", number, "</td><td>");
         number_duration(number, sizeof number, o->elapsed_s);
@@ -200,9 +210,11 @@ static void put_opening(output_file *f, bool is_quick)
     if (gmtime_r(&now, &date) && strftime(text, sizeof text, ", %Y-%m-%d", &date) > 0)
         put(f, text);
     machine_describe(text, sizeof text);
-    put_between(f, ", on ", text,
-                ". Times are those of one core: look at ratios. In tables, what nothing beats in both "
-                "cost and error is bold.</p>\n");
+    put_between(
+        f, ", on ", text,
+        ".</p>\n<p>To render, choose two numbers: samples per pixel and --accuracy. The rest is what the library "
+        "has chosen, and why. Times are those of one core: look at ratios. In tables, what nothing beats in both "
+        "cost and error is bold.</p>\n");
 }
 
 bool study_write_page(const study_options *options, const study_outcome *outcomes, size_t count, report *r)
@@ -219,7 +231,7 @@ bool study_write_page(const study_options *options, const study_outcome *outcome
     put_opening(f, options->quick);
     put_summary(f, outcomes, count);
     for (size_t i = 0; i < count; ++i)
-        put_study(f, options->folder, &outcomes[i]);
+        put_study(f, options->folder, in_order(outcomes, count, i));
     put(f, "</body>\n</html>\n");
     return output_file_commit(f, r);
 }

@@ -82,6 +82,24 @@ static int run_script(const char *folder, const char *const parts[], int count)
     return written || code > 0 ? code : -1;
 }
 
+/* gnuplot does not look whether the disk took what it wrote, but it closes every picture with these words. */
+static bool is_whole(const char *path, const char *ending)
+{
+    const char *const last = strcmp(ending, "png") == 0 ? "IEND" : "</svg>";
+    const size_t length = strlen(last);
+    char tail[32];
+    size_t size = 0;
+    FILE *const f = fopen(path, "rb");
+    if (f != NULL && fseek(f, -(long)sizeof tail, SEEK_END) == 0)
+        size = fread(tail, 1, sizeof tail, f);
+    if (f != NULL)
+        fclose(f);
+    for (size_t i = 0; i + length <= size; ++i)
+        if (memcmp(tail + i, last, length) == 0)
+            return true;
+    return false;
+}
+
 /* Written beside and renamed: an interrupted run leaves no half a picture. */
 static bool draw(const char *folder, const study_figure *figure, const char *ending, const char *terminal, report *r)
 {
@@ -94,12 +112,15 @@ static bool draw(const char *folder, const study_figure *figure, const char *end
     const char *const script[] = { opening, (const char *)style_gnuplot, "\n", (const char *)figure->script,
                                    "\nset output\n" };
     const int code = run_script(folder, script, sizeof script / sizeof script[0]);
-    if (code == 0 && rename(part, whole) == 0)
+    const bool drawn = code == 0 && is_whole(part, ending);
+    if (drawn && rename(part, whole) == 0)
         return true;
     const int reason = errno;
     unlink(part);
-    if (code == 0)
+    if (drawn)
         return report_error(r, "%s: cannot be written: %s", whole, strerror(reason));
+    if (code == 0)
+        return report_error(r, "%s: gnuplot could not write all of it", whole);
     return report_error(r, "%s: gnuplot could not draw it (exit code %d)", whole, code);
 }
 

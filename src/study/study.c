@@ -154,6 +154,17 @@ void study_note(study_run *run, const char *format, ...)
     va_end(list);
 }
 
+void study_choose(study_run *run, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    free(run->out->choose);
+    run->out->choose = text_of(format, list);
+    va_end(list);
+    if (!run->out->choose)
+        fail_for_memory(run);
+}
+
 void study_check(study_run *run, bool holds, const char *format, ...)
 {
     va_list list;
@@ -215,6 +226,11 @@ bool study_do(const study *what, const study_options *options, study_outcome *ou
     return true;
 }
 
+const char *study_outcome_choose(const study_outcome *outcome)
+{
+    return outcome->choose ? outcome->choose : outcome->study->choose;
+}
+
 void study_outcome_free(study_outcome *outcome)
 {
     for (size_t i = 0; i < outcome->line_count; ++i)
@@ -224,6 +240,7 @@ void study_outcome_free(study_outcome *outcome)
     for (size_t i = 0; i < outcome->front_count; ++i)
         free(outcome->fronts[i].settings);
     free(outcome->fronts);
+    free(outcome->choose);
     free(outcome->lines);
     free(outcome->tables);
     *outcome = (study_outcome){ 0 };

@@ -30,7 +30,7 @@ typedef struct study {
     const char *name;   /* of the option: glint study --NAME */
     const char *title;  /* what it measures */
     const char *truth;  /* what it holds that against */
-    const char *choose; /* what to take, in one sentence */
+    const char *choose; /* what to take, in one sentence, where study_choose does not say it */
     double share;       /* of the time of all studies, for the progress that is shown: measured once, and roughly */
     void (*run)(study_run *run);
     const study_figure *figures; /* NULL: none */
@@ -51,8 +51,10 @@ void study_end_table(study_run *run);
 
 /* A sentence for the report. */
 void study_note(study_run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A bound, and the sentence that says what was found. */
+/* A bound, and the sentence that says what was found. Never about a time, which is noise on a busy machine. */
 void study_check(study_run *run, bool holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* What to take, where only the measured numbers say it: in place of the study's own sentence. */
+void study_choose(study_run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* ---- dials: what a setting costs and how far off it is ---- */
 
 typedef struct study_setting {
@@ -73,8 +75,12 @@ typedef struct study_dial {
 /* Marks the front, writes the table, and shows it in the report. */
 void study_front(study_run *run, const study_dial *dial, study_setting *settings, int count);
 
-/* Seconds of processor time of all threads, which do not grow when another program runs beside. */
+/* Seconds of processor time of all threads. Another program beside stretches them all the same, by what it takes of
+ * caches and cores: ways that are compared take turns, their median round counts, and no bound is set to a time. */
 double study_cpu_s(void);
+/* Sorts them; the second returns the one in the middle. */
+void study_sort(double *values, int count);
+double study_median(double *values, int count);
 
 /* glint_material_create; NULL is a failure. */
 glint_material *study_material(study_run *run, const glint_material_options *options);
@@ -123,6 +129,7 @@ typedef struct study_front_table {
 /* What a study found. */
 typedef struct study_outcome {
     const study *study;
+    char *choose; /* NULL: what the study says */
     double elapsed_s;
     int checks, failed;
     study_line *lines;
@@ -137,6 +144,7 @@ typedef struct study_outcome {
 /* Runs one study and draws its figures. False: something failed, or it was stopped (then there is no error). */
 bool study_do(const study *what, const study_options *options, study_outcome *out, report *r);
 void study_outcome_free(study_outcome *outcome);
+const char *study_outcome_choose(const study_outcome *outcome);
 
 /* Writes FOLDER/report.html, which holds the figures that lie beside it. */
 bool study_write_page(const study_options *options, const study_outcome *outcomes, size_t count, report *r);

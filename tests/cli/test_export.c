@@ -77,7 +77,7 @@ static void wrong_usage_ends_with_2_and_wrong_input_with_1(void **state)
     assert_refused(glint_run(NULL, "export", "gltf", "plane.gltf", "-o", "x.gltf", "--set", "/a"), 2, "POINTER=VALUE");
     assert_refused(glint_run(NULL, "export", "gltf", "none.gltf", "-o", "x.gltf"), 1, "none.gltf: cannot be opened");
     assert_refused(glint_run(NULL, "export", "gltf", "plane.gltf", "-o", "x.gltf", "--material", "pane=snow"), 1,
-                   "no material called \"pane\", expected one of: panel");
+                   "no material called \"pane\"; did you mean panel?");
     assert_refused(glint_run(NULL, "export", "gltf", "plane.gltf", "-o", "/nonexistent/x.gltf"), 1,
                    "cannot be written");
     assert_int_equal(access("x.gltf", F_OK), -1);

@@ -246,6 +246,16 @@ static void options_may_follow_and_precede_the_scene(void **state)
     assert_same_files("a.exr", "b.exr");
 }
 
+static void scene_without_triangles_is_rendered_with_a_warning(void **state)
+{
+    (void)state;
+    file_write_text("empty.gltf", "{\"asset\":{\"version\":\"2.0\"}}");
+    outcome o = glint_run(NULL, "render", "empty.gltf", "-o", "empty.png", SMALL);
+    assert_exit(&o, 0);
+    assert_says(o.err, "glint: warning: empty.gltf: nothing to see: no triangles");
+    outcome_free(&o);
+}
+
 static void log_without_a_terminal_stays_plain(void **state)
 {
     (void)state;
@@ -305,6 +315,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(json_tells_an_error_as_well, workplace_enter_plane, workplace_leave),
         cmocka_unit_test_setup_teardown(file_names_may_hold_anything, workplace_enter_plane, workplace_leave),
         cmocka_unit_test_setup_teardown(options_may_follow_and_precede_the_scene, workplace_enter_plane,
+                                        workplace_leave),
+        cmocka_unit_test_setup_teardown(scene_without_triangles_is_rendered_with_a_warning, workplace_enter_plane,
                                         workplace_leave),
         cmocka_unit_test_setup_teardown(log_without_a_terminal_stays_plain, workplace_enter_plane, workplace_leave),
         cmocka_unit_test_setup_teardown(terminal_shows_a_bar_and_then_the_result, workplace_enter_plane,

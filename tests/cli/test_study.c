@@ -100,6 +100,19 @@ static void without_gnuplot_there_are_tables(void **state)
     assert_true(is_there("out", "report", ".html"));
 }
 
+/* A limit that the tables keep and a figure of some 30 kB does not. */
+static void disk_that_fills_up_leaves_no_half_a_figure(void **state)
+{
+    (void)state;
+    const run_setup small_disk = { .file_size_limit = 8192 };
+    outcome o = glint_run(&small_disk, "study", "--memory", "--quick", "-o", "out");
+    assert_exit(&o, 1);
+    assert_says(o.err, "out/memory.png: gnuplot could not write all of it");
+    outcome_free(&o);
+    assert_true(is_there("out", "memory_maps", ".csv"));
+    assert_false(is_there("out", "memory", ".png") || is_there("out", "memory", ".png.part"));
+}
+
 static void wrong_usage_and_a_file_for_a_folder_are_refused(void **state)
 {
     (void)state;
@@ -116,6 +129,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(tables_figures_and_the_page_are_there, workplace_enter, workplace_leave),
         cmocka_unit_test_setup_teardown(the_same_study_gives_the_same_tables, workplace_enter, workplace_leave),
         cmocka_unit_test_setup_teardown(without_gnuplot_there_are_tables, workplace_enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(disk_that_fills_up_leaves_no_half_a_figure, workplace_enter, workplace_leave),
         cmocka_unit_test_setup_teardown(wrong_usage_and_a_file_for_a_folder_are_refused, workplace_enter,
                                         workplace_leave),
     };

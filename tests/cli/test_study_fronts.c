@@ -1,4 +1,5 @@
-/* Every study in its quick form: its bounds hold, and the fronts have the order that docs/accuracy.md claims. */
+/* Every study in its quick form: its bounds hold, and the settings are as near as docs/accuracy.md claims. What it
+ * claims of their costs study_ways_cost holds, by instructions: times are noise. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -52,19 +53,12 @@ static double number_of(const json_t *s, const char *member)
     return json_number_value(json_object_get(s, member));
 }
 
-/* The first costs less and is nearer. */
-static void assert_beats(const char *study, const char *table, const char *better, const char *worse)
+static void assert_nearer(const char *study, const char *table, const char *better, const char *worse)
 {
-    const json_t *const a = setting(study, table, better), *const b = setting(study, table, worse);
-    if (number_of(a, "cost") >= number_of(b, "cost") || number_of(a, "error") >= number_of(b, "error"))
-        fail_msg("%s: %s costs %g with error %g, %s costs %g with error %g", study, better, number_of(a, "cost"),
-                 number_of(a, "error"), worse, number_of(b, "cost"), number_of(b, "error"));
-}
-
-static void assert_on_front(const char *study, const char *table, const char *name)
-{
-    if (!json_is_true(json_object_get(setting(study, table, name), "on_front")))
-        fail_msg("%s: %s is not on the front", study, name);
+    const double a = number_of(setting(study, table, better), "error"),
+                 b = number_of(setting(study, table, worse), "error");
+    if (a >= b)
+        fail_msg("%s: %s has error %g, %s %g", study, better, a, worse, b);
 }
 
 static int run_all(void **state)
@@ -100,28 +94,64 @@ static void every_bound_holds(void **state)
     assert_int_equal(i, 8);
 }
 
-static void fronts_have_the_order_that_the_page_claims(void **state)
+/* Costs less, or as much and is nearer; and is not further off than a thousandth. */
+static bool beats(const json_t *a, const json_t *b)
+{
+    const double cost = number_of(b, "cost") - number_of(a, "cost"), near = number_of(a, "error"),
+                 far = number_of(b, "error");
+    return (cost > 0.0 || (cost >= 0.0 && near < far)) && far >= 0.999 * near;
+}
+
+/* In whatever time they took. */
+static void a_front_is_what_no_other_setting_beats(void **state)
+{
+    (void)state;
+    size_t i, k, n, m, fronts = 0;
+    const json_t *study, *front, *a, *b;
+    json_array_foreach(json_object_get(said, "studies"), i, study)
+    {
+        json_array_foreach(json_object_get(study, "fronts"), k, front)
+        {
+            const json_t *const settings = json_object_get(front, "settings");
+            fronts++;
+            json_array_foreach(settings, n, a)
+            {
+                bool is_beaten = false;
+                assert_true(number_of(a, "cost") > 0.0);
+                json_array_foreach(settings, m, b)
+                {
+                    is_beaten = is_beaten || beats(b, a);
+                }
+                if (is_beaten == json_is_true(json_object_get(a, "on_front")))
+                    fail_msg("%s: %s is %sbeaten", json_string_value(json_object_get(front, "table")),
+                             json_string_value(json_object_get(a, "name")), is_beaten ? "" : "not ");
+            }
+        }
+    }
+    assert_true(fronts >= 9);
+}
+
+static void settings_are_as_near_as_the_page_claims(void **state)
 {
     (void)state;
     static const char *const published[] = { "gated Gaussian as printed", "gated Gaussian cut at 0 (DB23)",
                                              "cut to [1; N] (KK24)" };
     for (int k = 0; k < 3; k++)
-        assert_beats("law", "law_front.csv", "libglint (walking to 5)", published[k]);
-    assert_beats("law", "law_front.csv", "libglint (walking to 5)", "exact (BTPE)");
-    assert_beats("integrals", "integrals_worst_front.csv", "fast (LTC)", "64 random");
-    assert_on_front("integrals", "integrals_worst_front.csv", "fast (LTC)");
-    assert_on_front("integrals", "integrals_worst_front.csv", "exact");
-    assert_beats("look-ups", "look_ups_front.csv", "all 36; 64 samples", "one drawn by its weight; 256 samples");
-    assert_beats("models", "models_front.csv", "counting", "dictionary");
-    assert_on_front("models", "models_front.csv", "smooth");
-    assert_on_front("models", "models_front.csv", "counting");
+        assert_nearer("law", "law_front.csv", "libglint (walking to 5)", published[k]);
+    assert_nearer("law", "law_ks_front.csv", "libglint (walking to 5)", "libglint walking to 2");
+    assert_nearer("integrals", "integrals_worst_front.csv", "fast (LTC)", "64 random");
+    assert_nearer("integrals", "integrals_worst_front.csv", "exact", "fast (LTC)");
+    assert_nearer("look-ups", "look_ups_front.csv", "all 36; 64 samples", "one drawn by its weight; 1024 samples");
+    assert_nearer("models", "models_front.csv", "counting", "dictionary");
+    assert_nearer("models", "models_front.csv", "counting", "smooth");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bound_holds),
-        cmocka_unit_test(fronts_have_the_order_that_the_page_claims),
+        cmocka_unit_test(a_front_is_what_no_other_setting_beats),
+        cmocka_unit_test(settings_are_as_near_as_the_page_claims),
     };
     return cmocka_run_group_tests(tests, run_all, forget);
 }

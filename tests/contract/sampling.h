@@ -16,22 +16,36 @@ typedef struct sampling_counts {
     double below_expected, below_seen; /* the horizon */
 } sampling_counts;
 
-/* Each cell by fine x fine points. */
+/* How many samples a cell expects, by fine x fine points. */
+static inline double sampling_expect_cell(const glint_material *m, const glint_footprint *f, const float wo[3], int row,
+                                          int column, int fine)
+{
+    const double turn = 6.28318530717958648, rows = SAMPLING_ROWS * fine, columns = SAMPLING_COLUMNS * fine;
+    double sum = 0.0;
+    for (int i = 0; i < fine; i++)
+        for (int k = 0; k < fine; k++) {
+            const double z = (row * fine + i + 0.5) / rows, phi = turn * (column * fine + k + 0.5) / columns;
+            const double r = sqrt(1.0 - z * z);
+            const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
+            sum += (double)glint_pdf(m, NULL, f, wo, wi);
+        }
+    return SAMPLING_COUNT * sum * turn / (rows * columns);
+}
+
+/* By fine x fine points where a cell may be judged by itself, which takes 10 samples. By its middle where it is joined
+ * with all others, which expect what is left of the samples, whatever is said here of each. */
 static inline void sampling_expect(sampling_counts *n, const glint_material *m, const glint_footprint *f,
                                    const float wo[3], int fine)
 {
-    const double turn = 6.28318530717958648, rows = SAMPLING_ROWS * fine, columns = SAMPLING_COLUMNS * fine;
-    double inside = 0.0;
-    memset(n->expected, 0, sizeof(n->expected));
-    for (int i = 0; i < SAMPLING_ROWS * fine; i++)
-        for (int k = 0; k < SAMPLING_COLUMNS * fine; k++) {
-            const double z = (i + 0.5) / rows, phi = turn * (k + 0.5) / columns, r = sqrt(1.0 - z * z);
-            const float wi[3] = { (float)(r * cos(phi)), (float)(r * sin(phi)), (float)z };
-            const double p = (double)glint_pdf(m, NULL, f, wo, wi) * turn / (rows * columns);
-            n->expected[i / fine * SAMPLING_COLUMNS + k / fine] += p * SAMPLING_COUNT;
-            inside += p;
+    n->below_expected = SAMPLING_COUNT;
+    for (int i = 0; i < SAMPLING_ROWS; i++)
+        for (int k = 0; k < SAMPLING_COLUMNS; k++) {
+            double *const expected = &n->expected[i * SAMPLING_COLUMNS + k];
+            *expected = sampling_expect_cell(m, f, wo, i, k, 1);
+            if (*expected > 5.0)
+                *expected = sampling_expect_cell(m, f, wo, i, k, fine);
+            n->below_expected -= *expected;
         }
-    n->below_expected = (1.0 - inside) * SAMPLING_COUNT;
 }
 
 static inline void sampling_draw(sampling_counts *n, const glint_material *m, const glint_footprint *f,

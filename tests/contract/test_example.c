@@ -130,6 +130,51 @@ static void normals_may_have_two_or_three_components(void **state)
     glint_material_destroy(b);
 }
 
+/* A map of flat facets that all lean to one side, and the four mirror images of that side: each shows where a quarter
+ * of the maps lie so, as many as chance wills. */
+static void mirrored_maps_lean_to_all_four_sides_alike(void **state)
+{
+    (void)state;
+    enum { MAPS = 4096 };
+    static float normals[3 * 8 * 8];
+    for (int i = 0; i < 64; i++) {
+        normals[3 * i] = 0.15F;
+        normals[3 * i + 1] = 0.3F;
+        normals[3 * i + 2] = 1.0F;
+    }
+    glint_material_options o = example_options();
+    o.example.normals = normals;
+    o.example.size = 8;
+    o.example.side_m = 1e-3F;
+    o.example.flat = 1;
+    o.example.sigma_r = 0.02F;
+    glint_material *m = create(&o);
+    const glint_light light = { GLINT_LIGHT_CAP, 1e-4F };
+    const float wo[3] = { 0.0F, 0.0F, 1.0F };
+    double sum[4] = { 0.0 };
+    for (int n = 0; n < MAPS; n++) {
+        /* The middle of one map, where no neighbour reaches. */
+        const glint_footprint f = {
+            .u = 1e-3 * (n % 64 + 0.5), .v = 1e-3 * (n / 64 + 0.5), .dudx = 1e-4F, .dvdy = 1e-4F
+        };
+        for (int k = 0; k < 4; k++) {
+            const double x = k & 1 ? -0.15 : 0.15, y = k & 2 ? -0.3 : 0.3, z = 1.0 / (1.0 + x * x + y * y);
+            const float wi[3] = { (float)(2.0 * x * z), (float)(2.0 * y * z), (float)(2.0 * z - 1.0) };
+            float rgb[3];
+            glint_eval(m, NULL, &f, wo, wi, &light, rgb);
+            sum[k] += (double)rgb[0];
+        }
+    }
+    glint_material_destroy(m);
+    const double all = sum[0] + sum[1] + sum[2] + sum[3];
+    assert_true(all > 0.0);
+    for (int k = 0; k < 4; k++)
+        /* Five deviations of a binomial share of a quarter. */
+        if (!(fabs(sum[k] / all - 0.25) < 5.0 * sqrt(0.25 * 0.75 / MAPS)))
+            fail_msg("side %d has %.4f of the light, expected a quarter +- %.4f", k, sum[k] / all,
+                     sqrt(0.25 * 0.75 / MAPS));
+}
+
 /* E over seeds and places of rgb is smooth: exactly so for tiled maps, up to the eight bits and the bilinear cells of
  * two sets of maps; for scattered ones also up to the patch of surface that stands for all of it. */
 static void mean_over_seeds_is_smooth(void **state)
@@ -254,6 +299,7 @@ int main(void)
         cmocka_unit_test(bad_options_are_named_with_their_range),
         cmocka_unit_test(built_in_maps_tile_and_have_their_slope),
         cmocka_unit_test(normals_may_have_two_or_three_components),
+        cmocka_unit_test(mirrored_maps_lean_to_all_four_sides_alike),
         cmocka_unit_test(mean_over_seeds_is_smooth),
         cmocka_unit_test(nothing_jumps_as_the_pixel_grows),
         cmocka_unit_test(no_map_reflects_more_than_it_gets),

@@ -137,9 +137,48 @@ static void samples_have_the_density_of_the_footprint(void **state)
                                                 { GLINT_MODEL_SMOOTH, NULL } });
 }
 
+/* A facet of length over width 16 covers four widths of a square one along the tangent and a quarter across: what a
+ * pixel sees of them is what it would see of square ones on a surface that is shrunk so, bit for bit, as a factor of
+ * four rounds nothing. */
+static void elongated_facets_are_long_along_the_tangent(void **state)
+{
+    (void)state;
+    static const glint_model models[] = { GLINT_MODEL_COUNTING, GLINT_MODEL_EXPLICIT, GLINT_MODEL_DICTIONARY,
+                                          GLINT_MODEL_EXAMPLE };
+    for (size_t k = 0; k < sizeof(models) / sizeof(models[0]); k++) {
+        glint_material_options o = single_configuration(models[k], 0).options;
+        o.facet_alpha = 0.05F;
+        glint_material *const square = create(&o);
+        o.elongation = 16.0F;
+        glint_material *const elongated = create(&o);
+        uint64_t random = 4;
+        int lit = 0;
+        for (int i = 0; i < 2000; i++) {
+            float wo[3], wi[3], rgb[3], expected[3];
+            direction(0.3, 0.4, wo);
+            direction(0.3 + random_between(&random, -0.3, 0.3), 0.4 + PI, wi);
+            const double side = random_log_between(&random, 0.3, 10.0) / sqrt((double)o.surface.facets_per_m2);
+            const glint_footprint f = tilted_footprint(side, 0.3, &random);
+            glint_footprint shrunk = f;
+            shrunk.u /= 4.0, shrunk.dudx /= 4.0F, shrunk.dudy /= 4.0F;
+            shrunk.v *= 4.0, shrunk.dvdx *= 4.0F, shrunk.dvdy *= 4.0F;
+            glint_eval(elongated, NULL, &f, wo, wi, &LIGHT, rgb);
+            glint_eval(square, NULL, &shrunk, wo, wi, &LIGHT, expected);
+            if (memcmp(rgb, expected, sizeof(rgb)) != 0)
+                fail_msg("%s: %.9g under a pixel of %g m, expected %.9g", glint_model_name(models[k]), (double)rgb[0],
+                         side, (double)expected[0]);
+            lit += rgb[0] > 0.0F;
+        }
+        assert_true(lit > 500);
+        glint_material_destroy(square);
+        glint_material_destroy(elongated);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elongated_facets_are_long_along_the_tangent),
         cmocka_unit_test(mean_over_seeds_is_smooth),
         cmocka_unit_test(weight_times_density_is_the_value_under_the_footprint),
         cmocka_unit_test(samples_have_the_density_of_the_footprint),

@@ -161,7 +161,7 @@ static void faults_of_the_file_around_have_their_codes(void **state)
     s = validated(c->path, false);
     expect(&s, "error FILE line 1");
     s = validated("/nonexistent.gltf", false);
-    expect(&s, "error FILE : cannot be opened");
+    expect(&s, "error FILE : a file that cannot be opened");
     s = validated(MODELS "IndexOutOfRange/IndexOutOfRange.gltf", false);
     expect(&s, "error CONTENT /meshes/0/primitives/0/indices: vertex 255");
 }

@@ -38,6 +38,15 @@ static rlim_t limit_file_size(rlim_t byte_count)
     return before;
 }
 
+static bool write_text(const char *path, const char *text, report *r)
+{
+    output_file *f = output_file_open(path, r);
+    if (!f)
+        return false;
+    output_file_write(f, text, strlen(text));
+    return output_file_commit(f, r);
+}
+
 static int make_folder(void **state)
 {
     *state = folder_make();
@@ -54,7 +63,7 @@ static void a_commit_replaces_the_file_and_leaves_nothing_else(void **state)
 {
     const char *path = folder_path(*state, "out.txt");
     report r = { 0 };
-    assert_true(output_file_write_text(path, "old", &r));
+    assert_true(write_text(path, "old", &r));
     output_file *f = output_file_open(path, &r);
     assert_non_null(f);
     assert_true(output_file_write(f, "....", 4));
@@ -71,7 +80,7 @@ static void an_abort_keeps_the_old_file(void **state)
 {
     const char *path = folder_path(*state, "out.txt");
     report r = { 0 };
-    assert_true(output_file_write_text(path, "old", &r));
+    assert_true(write_text(path, "old", &r));
     output_file *f = output_file_open(path, &r);
     assert_non_null(f);
     output_file_write(f, "half of the ne", 14);
@@ -85,7 +94,7 @@ static void a_full_disk_keeps_the_old_file(void **state)
 {
     const char *path = folder_path(*state, "out.txt");
     report r = { 0 };
-    assert_true(output_file_write_text(path, "old", &r));
+    assert_true(write_text(path, "old", &r));
     output_file *f = output_file_open(path, &r);
     assert_non_null(f);
     const rlim_t before = limit_file_size(10000);
@@ -108,7 +117,7 @@ static void a_disk_that_fills_up_at_the_end_is_noticed(void **state)
     const char *path = folder_path(*state, "out.txt");
     report r = { 0 };
     const rlim_t before = limit_file_size(2);
-    const bool written = output_file_write_text(path, "three and more", &r);
+    const bool written = write_text(path, "three and more", &r);
     limit_file_size(before);
     assert_false(written);
     assert_non_null(strstr(r.error, "File too large"));
@@ -186,7 +195,7 @@ static void a_folder_without_permission_is_an_error(void **state)
     if (child == 0) {
         report r = { 0 };
         const bool ready = geteuid() != 0 || setuid(65534) == 0;
-        const bool refused = !output_file_write_text(path, "text", &r);
+        const bool refused = !write_text(path, "text", &r);
         _exit(ready && refused && strstr(r.error, path) && strstr(r.error, "Permission denied") ? 0 : 1);
     }
     int status = 1;
@@ -203,7 +212,7 @@ static void a_link_keeps_pointing_at_the_file_that_is_replaced(void **state)
     report r = { 0 };
     file_write(path, "old", 3);
     assert_int_equal(symlink("real.txt", link_path), 0);
-    assert_true(output_file_write_text(link_path, "new", &r));
+    assert_true(write_text(link_path, "new", &r));
     struct stat status;
     assert_int_equal(lstat(link_path, &status), 0);
     assert_true(S_ISLNK(status.st_mode));
@@ -216,12 +225,12 @@ static void permissions_follow_the_umask_and_then_the_old_file(void **state)
     report r = { 0 };
     struct stat status;
     const mode_t before = umask(027);
-    assert_true(output_file_write_text(path, "first", &r));
+    assert_true(write_text(path, "first", &r));
     umask(before);
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0640);
     assert_int_equal(chmod(path, 0604), 0);
-    assert_true(output_file_write_text(path, "second", &r));
+    assert_true(write_text(path, "second", &r));
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0604);
 }

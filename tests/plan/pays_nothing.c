@@ -1,6 +1,6 @@
 /* Renders a scene that uses no effect, for tests/plan/pays_nothing.sh to count the instructions of counted().
  *
- * kind      smooth, flakes; or an effect, see effects.h
+ * kind      smooth, flakes; or an effect, see effects.h; or one of the library, see library.h, which is only printed
  * renderer  whole: the previewer; bare: see bare.h; both: both, and an error where a pixel differs
  *           print: the previewer, and a hash of what comes of it
  *           planned, smooth: the previewer from set-up to picture, with a budget; as --model auto and --model smooth
@@ -11,6 +11,7 @@
 
 #include "bare.h"
 #include "effects.h"
+#include "library.h"
 #include "preview/film.h"
 #include "preview/stage.h"
 #include "preview/tiles.h"
@@ -77,14 +78,6 @@ static int render_planned(const scene *s, preview_options o, int model, report *
     return 0;
 }
 
-/* FNV-1a */
-static uint32_t hash_of(const void *bytes, size_t size, uint32_t hash)
-{
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 16777619U;
-    return hash;
-}
-
 static int render_apart(const scene *s, const preview_options *o, const char *renderer, report *r)
 {
     static stage st;
@@ -105,8 +98,8 @@ static int render_apart(const scene *s, const preview_options *o, const char *re
     const bool same = !both || memcmp(whole.pixels, bare.pixels, size) == 0;
     const bool lit = !both || whole.pixels[(size_t)(o->width * o->height / 2 * whole.channel_count)] > 0.0F;
     if (strcmp(renderer, "print") == 0)
-        printf("%08x\n",
-               hash_of(whole.pixels, size, hash_of(&counts.over_limit, sizeof counts.over_limit, 2166136261U)));
+        printf("%08x\n", library_hash(whole.pixels, size,
+                                      library_hash(&counts.over_limit, sizeof counts.over_limit, LIBRARY_FIRST_HASH)));
     image_free(&whole);
     image_free(&bare);
     view_take_down(&v);
@@ -124,6 +117,11 @@ int pays_nothing(const char *kind, const char *renderer)
     preview_options o = plain_options(&from);
     scene s;
     int code;
+    const uint32_t of_library = library_use(kind);
+    if (of_library != 0U) {
+        printf("%08x\n", of_library);
+        return 0;
+    }
     if (!effects_use(kind, &s, &o))
         s = plain_scene(kind);
     if (strcmp(renderer, "planned") == 0)

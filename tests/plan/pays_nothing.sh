@@ -1,8 +1,8 @@
 #!/bin/bash
 # pays_nothing.sh FOLDER EFFECT...: what a scene pays for effects that it does not use, in instructions of its picture.
 #
-# FOLDER has the program that counts, and the previewer as modules: whole, without each effect, and without all of them. A scene of
-# plain surfaces under two round lights, once of smooth metal and once of flakes,
+# FOLDER has the program that counts, and the previewer as modules: whole, without each effect, and without all of them; and for
+# the effects of the library, LIBRARY_..., the previewer and the library together, whole and without each. A scene of plain surfaces under two round lights, once of smooth metal and once of flakes,
 #   - costs at most EACH more than where an effect is compiled out, for each of them,
 #   - calls no code of any effect,
 #   - makes the pixels of a renderer that has no effect at all, and costs at most BARE more than that;
@@ -22,16 +22,21 @@ trap 'rm -r "$out"' EXIT
 
 # What is rendered, in this order: names of what is counted, and the arguments of the program.
 names=() arguments=()
+# The module that has everything, to compare with.
+whole_of() {
+    [[ $1 == LIBRARY_* ]] && echo library || echo whole
+}
 add() {
     names+=("$1 $2 $3")
     arguments+=("$folder/$1.so" "$2" "$3")
 }
 for kind in smooth flakes; do
     add whole $kind whole
+    add library $kind whole
     add whole $kind bare
     for effect in "${effects[@]}" all_effects; do
         # Flakes are facets.
-        [[ $kind == flakes && $effect =~ ^(EFFECT_FACETS|all_effects)$ ]] || add "$effect" $kind whole
+        [[ $kind == flakes && $effect =~ ^(EFFECT_FACETS|LIBRARY_COUNTING|all_effects)$ ]] || add "$effect" $kind whole
     done
 done
 
@@ -41,7 +46,8 @@ for kind in smooth flakes; do
 done
 # A switch that is off shows where the effect is used.
 for effect in "${effects[@]}"; do
-    mapfile -t pictures < <("$folder/pays_nothing" "$folder/whole.so" "$effect" print "$folder/$effect.so" "$effect" print)
+    with=$(whole_of "$effect")
+    mapfile -t pictures < <("$folder/pays_nothing" "$folder/$with.so" "$effect" print "$folder/$effect.so" "$effect" print)
     if [[ -z ${pictures[1]-} || ${pictures[0]} == "${pictures[1]}" ]]; then
         echo "$effect: off or on, the picture is the same: ${pictures[*]}"
         failed=1
@@ -77,7 +83,7 @@ for kind in smooth flakes; do
     whole=${count[whole $kind whole]}
     for effect in "${effects[@]}"; do
         without=${count[$effect $kind whole]-}
-        [[ -z $without ]] || compare "$kind: $effect" "$whole" "$without" $each
+        [[ -z $without ]] || compare "$kind: $effect" "${count[$(whole_of "$effect") $kind whole]}" "$without" $each
     done
     [[ $kind == flakes ]] || compare "$kind: all effects" "$whole" "${count[all_effects $kind whole]}" $bare
     compare "$kind: a bare renderer" "$whole" "${count[whole $kind bare]}" $bare

@@ -1,5 +1,6 @@
 /* glint export povray as users run it: what it writes renders in POV-Ray without a warning, whatever the scene is
  * called and lacks. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -149,6 +150,51 @@ static void hostile_file_names_make_plain_ones(void **state)
     scene_write("-a b;$(x)'\"");
     export("-o", "odd", SMALL, "--", "-a b;$(x)'\".gltf");
     assert_renders("odd", "_a_b___x___");
+}
+
+/* A matte floor below a spot light, seen from above: bright in the inner cone, as glint render has it, dark outside of
+ * the outer one, and in between less than it would be without the cone. */
+static void spot_light_has_the_cone_of_the_file(void **state)
+{
+    (void)state;
+    file_write_text("spot.gltf",
+                    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
+                    "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_materials_specular\"],"
+                    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"spot\",\"intensity\":5,"
+                    "\"spot\":{\"innerConeAngle\":0.2,\"outerConeAngle\":0.5}}]}},"
+                    "\"cameras\":[{\"type\":\"orthographic\","
+                    "\"orthographic\":{\"xmag\":2,\"ymag\":1.5,\"znear\":0.1,\"zfar\":10}}],"
+                    "\"nodes\":[{\"mesh\":0},"
+                    "{\"translation\":[0,2,0],\"rotation\":[-0.70710678,0,0,0.70710678],"
+                    "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
+                    "{\"translation\":[0,5,0],\"rotation\":[-0.70710678,0,0,0.70710678],\"camera\":0}],"
+                    "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                    "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}],"
+                    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+                    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","
+                    "\"min\":[-2,0,-2],\"max\":[2,0,2]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],"
+                    "\"buffers\":[{\"byteLength\":72,\"uri\":\"data:application/octet-stream;base64,"
+                    "AAAAwAAAAAAAAADAAAAAwAAAAAAAAABAAAAAQAAAAAAAAABA"
+                    "AAAAwAAAAAAAAADAAAAAQAAAAAAAAABAAAAAQAAAAAAAAADA\"}]}");
+    export("spot.gltf", "-o", "spot", "--size", "64x48");
+    image povray = povray_render_ini("spot", "spot", QUICK);
+    outcome o = glint_run(NULL, "render", "spot.gltf", "-o", "spot.exr", "--size", "64x48", "--bounces", "0");
+    assert_exit(&o, 0);
+    outcome_free(&o);
+    report r = { 0 };
+    image ours;
+    assert_true(image_read("spot.exr", &ours, &r));
+    /* 1/16 m a pixel: .28, .72 and 1.28 m from the middle, which the light sees at .14, .35 and .57 rad. */
+    const double inside = (double)pixel_at(&povray, 36, 24)[0], between = (double)pixel_at(&povray, 43, 24)[0];
+    const double expected = (double)pixel_at(&ours, 36, 24)[0];
+    print_message("in the inner cone %.5g, expected %.5g; between the cones %.5g\n", inside, expected, between);
+    /* A pixel's middle against the mean of its samples, and half floats: less than a hundredth. */
+    assert_true(fabs(inside / expected - 1.0) < 0.01);
+    assert_true(pixel_at(&povray, 52, 24)[0] == 0.0F && pixel_at(&ours, 52, 24)[0] == 0.0F);
+    /* The cosine to the fourth alone would leave .81 of it. */
+    assert_true(between > 0.0 && between < 0.7 * inside);
+    image_free(&povray);
+    image_free(&ours);
 }
 
 /* ---- what is missing, and what is left out ---- */
@@ -331,6 +377,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(same_input_gives_the_same_bytes, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(hostile_names_are_names_of_nothing, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(hostile_file_names_make_plain_ones, enter, workplace_leave),
+        cmocka_unit_test_setup_teardown(spot_light_has_the_cone_of_the_file, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(says_what_is_added_and_what_is_left_out, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(what_stands_still_is_said, enter, workplace_leave),
         cmocka_unit_test_setup_teardown(the_same_words_are_one_warning_with_the_first_names, enter, workplace_leave),

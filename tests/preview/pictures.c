@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "scenes.h"
+#include "statistics.h"
 
 const preview_sky pictures_black = { { 0 }, { 0 }, { 0 } };
 
@@ -51,6 +52,30 @@ double pictures_mean(const image *i, const char *channel)
         for (int x = 0; x < i->width; ++x)
             sum += pictures_at(i, channel, x, y);
     return sum / ((double)i->width * i->height);
+}
+
+void pictures_block_statistics(scene *s, const preview_options *o, int seeds, double *variance, double *mean)
+{
+    enum { ACROSS = 8, COUNT = ACROSS * ACROSS };
+    moments blocks[COUNT] = { { 0 } };
+    const int side = o->width / ACROSS;
+    assert_true(o->width == o->height && side * ACROSS == o->width);
+    for (int seed = 0; seed < seeds; ++seed) {
+        s->materials[0].glint.seed = (uint32_t)seed;
+        image i = pictures_render(s, o);
+        for (int b = 0; b < COUNT; ++b) {
+            double sum = 0.0;
+            for (int k = 0; k < side * side; ++k)
+                sum += pictures_at(&i, "R", b % ACROSS * side + k % side, b / ACROSS * side + k / side);
+            moments_add(&blocks[b], sum / (side * side));
+        }
+        image_free(&i);
+    }
+    *variance = *mean = 0.0;
+    for (int b = 0; b < COUNT; ++b) {
+        *variance += moments_variance(&blocks[b]) / COUNT;
+        *mean += blocks[b].mean / COUNT;
+    }
 }
 
 scene_camera pictures_from_above(float half_size)

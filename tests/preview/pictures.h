@@ -14,6 +14,10 @@ image pictures_render(const scene *s, const preview_options *o);
 double pictures_at(const image *i, const char *channel, int x, int y);
 double pictures_mean(const image *i, const char *channel);
 
+/* Renders the scene with so many seeds of the facets of its first material, and takes the red light of 8 x 8 blocks of
+ * the picture: the mean over blocks of the variance that it has over seeds, and of its mean. */
+void pictures_block_statistics(scene *s, const preview_options *o, int seeds, double *variance, double *mean);
+
 /* An orthographic camera straight above the origin that sees a square of 2 half_size metres; x to the right, z
  * downwards. */
 scene_camera pictures_from_above(float half_size);

@@ -270,30 +270,6 @@ static void penumbrae_have_the_light_that_their_places_see(void **state)
 
 /* ---- facets ---- */
 
-static void block_statistics(scene *s, const preview_options *o, int seeds, double *variance, double *mean)
-{
-    enum { SIDE = 8, MOST = 64 };
-    moments blocks[MOST] = { { 0 } };
-    const int across = o->width / SIDE, count = across * (o->height / SIDE);
-    assert_true(count <= MOST);
-    for (int seed = 0; seed < seeds; ++seed) {
-        s->materials[0].glint.seed = (uint32_t)seed;
-        image i = pictures_render(s, o);
-        for (int b = 0; b < count; ++b) {
-            double sum = 0.0;
-            for (int k = 0; k < SIDE * SIDE; ++k)
-                sum += pictures_at(&i, "R", b % across * SIDE + k % SIDE, b / across * SIDE + k / SIDE);
-            moments_add(&blocks[b], sum / (SIDE * SIDE));
-        }
-        image_free(&i);
-    }
-    *variance = *mean = 0.0;
-    for (int b = 0; b < count; ++b) {
-        *variance += moments_variance(&blocks[b]) / count;
-        *mean += blocks[b].mean / count;
-    }
-}
-
 /* Half of a panel is hidden, so that explicit facets see the other half; they are also lit by a panel of that half
  * alone, with nothing in the way: the truth. The share of lit facets halves, and each is as bright as before, so the
  * mean halves and so does the variance. */
@@ -314,10 +290,10 @@ static void half_hidden_light_glints_as_half_the_light(void **state)
     o.width = o.height = 64;
     o.spp = 4;
     double variance[3], mean[3];
-    block_statistics(&hidden, &o, SEEDS, &variance[0], &mean[0]);
-    block_statistics(&half, &o, SEEDS, &variance[1], &mean[1]);
+    pictures_block_statistics(&hidden, &o, SEEDS, &variance[0], &mean[0]);
+    pictures_block_statistics(&half, &o, SEEDS, &variance[1], &mean[1]);
     o.model = GLINT_MODEL_EXPLICIT;
-    block_statistics(&half, &o, SEEDS, &variance[2], &mean[2]);
+    pictures_block_statistics(&half, &o, SEEDS, &variance[2], &mean[2]);
     /* The same facets, drawn alike, lit by the same light. The rays' shares scatter by a tenth, and two samples that
      * disagree by d count d / 2 fewer facets in common: 1.13 * .1 / 2 / .5 = 11 percent of the variance at most. A
      * mask of 0 and 1 a sample would lose 40 percent. */

@@ -121,31 +121,6 @@ static scene flaky_floor(float facets_per_m2)
     return floor_of(scenes_flakes(0.5F, facets_per_m2));
 }
 
-/* Mean over 8 x 8 blocks of the variance that their light has over the seeds of the facets, and of their light. */
-static void block_statistics(scene *s, const preview_options *o, int seeds, double *variance, double *mean)
-{
-    enum { SIDE = 8, MOST = 64 };
-    moments blocks[MOST] = { { 0 } };
-    const int across = o->width / SIDE, count = across * (o->height / SIDE);
-    assert_true(count <= MOST);
-    for (int seed = 0; seed < seeds; ++seed) {
-        s->materials[0].glint.seed = (uint32_t)seed;
-        image i = pictures_render(s, o);
-        for (int b = 0; b < count; ++b) {
-            double sum = 0.0;
-            for (int k = 0; k < SIDE * SIDE; ++k)
-                sum += pictures_at(&i, "R", b % across * SIDE + k % SIDE, b / across * SIDE + k / SIDE);
-            moments_add(&blocks[b], sum / (SIDE * SIDE));
-        }
-        image_free(&i);
-    }
-    *variance = *mean = 0.0;
-    for (int b = 0; b < count; ++b) {
-        *variance += moments_variance(&blocks[b]) / count;
-        *mean += blocks[b].mean / count;
-    }
-}
-
 /* A small disc in a black map against a directional light of its size: the same mean, and the same glints. */
 static void a_tiny_bright_disc_glints_as_a_sun_of_its_size(void **state)
 {
@@ -160,13 +135,13 @@ static void a_tiny_bright_disc_glints_as_a_sun_of_its_size(void **state)
     o.width = o.height = 64;
     o.spp = 1;
     double variance[2], mean[2];
-    block_statistics(&s, &o, 24, &variance[0], &mean[0]);
+    pictures_block_statistics(&s, &o, 24, &variance[0], &mean[0]);
 
     const float from[3] = { (float)TOWARDS[0], (float)TOWARDS[1], (float)TOWARDS[2] };
     scenes_add_light(&s, SCENE_LIGHT_DIRECTIONAL, from, (float)(1000.0 * covered))->angular_diameter_rad = 0.06F;
     o.environment = NULL;
     o.sky = &pictures_black;
-    block_statistics(&s, &o, 24, &variance[1], &mean[1]);
+    pictures_block_statistics(&s, &o, 24, &variance[1], &mean[1]);
     /* The discs differ by their rims, half a texel over 5 across: 2 percent in solid angle, and so in variance, besides
      * what 64 blocks and 24 seeds leave: sqrt(2 / (64 * 23)) = 3.7 percent each, twice as much for a heavy tail. */
     if (!(fabs(variance[0] / variance[1] - 1.0) < 5.0 * 0.074 + 0.02))
@@ -201,13 +176,13 @@ static void windows_glint_as_lights_that_are_summed(void **state)
     const preview_environment e = maps_environment(&m);
     const scene_camera c = pictures_from_above(1.0F);
     preview_options o = options_under(&e, &c);
-    o.width = o.height = 64;
+    o.width = o.height = 32;
     o.spp = 16;
     double variance[2], mean[2];
-    block_statistics(&s, &o, 12, &variance[0], &mean[0]);
+    pictures_block_statistics(&s, &o, 12, &variance[0], &mean[0]);
     o.environment = NULL;
     o.sky = &pictures_black;
-    block_statistics(&lit, &o, 12, &variance[1], &mean[1]);
+    pictures_block_statistics(&lit, &o, 12, &variance[1], &mean[1]);
     /* A sample that looks into one window of four counts the facets of four footprints, whose places in the pixel are
      * random: a facet is counted once in the mean, and its square 1 (if they never overlap) to 2 times (if they were
      * independent). With their own footprints the samples would give four times the variance, less what the surface's
@@ -260,7 +235,7 @@ static void the_mean_over_seeds_is_the_smooth_picture(void **state)
     const scene_camera c = pictures_from_above(1.0F);
     scene s = flaky_floor(2e5F);
     preview_options o = options_under(&e, &c);
-    o.width = o.height = 64;
+    o.width = o.height = 32;
     moments means = { 0 };
     double smooth = 0.0;
     for (uint32_t seed = 0; seed < SEEDS; ++seed) {

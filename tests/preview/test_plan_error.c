@@ -1,4 +1,4 @@
-/* Pictures stay within their error budget, and where they cannot the plan has said so. The long form is
+/* What is left out of pictures stays within their error budget and is what the plan has foreseen. The long form is
  * tests/study/plan.c. */
 #include <math.h>
 #include <setjmp.h>
@@ -10,27 +10,11 @@
 
 #include <cmocka.h>
 
-#include "pictures.h"
 #include "plan_cases.h"
+#include "planned_pictures.h"
 
 /* The error is at most so many times what the plan foresees: 1.32 was measured, where light bounces seldom. */
 #define FORESEEN 1.5
-
-static glint_plan_outcome foreseen;
-
-static void note_outcome(const glint_plan *plan, void *user)
-{
-    (void)user;
-    foreseen = glint_plan_result(plan);
-}
-
-static image render(const scene *s, preview_options o, double accuracy, int spp)
-{
-    o.accuracy = accuracy;
-    o.spp = spp;
-    o.planned = accuracy > 0.0 ? note_outcome : NULL;
-    return pictures_render(s, &o);
-}
 
 /* The same samples, all and less: what is left out is within the budget, whatever the noise. */
 static void what_is_left_out_stays_within_the_budget(void **state)
@@ -38,15 +22,15 @@ static void what_is_left_out_stays_within_the_budget(void **state)
     (void)state;
     static const double budgets[] = { 0.02, 0.2 };
     static const int samples[] = { 4, 64 };
-    int caps = 0;
+    float caps = 0.0F;
     for (int i = 0; i < plan_case_count(); ++i) {
         scene_camera camera;
         preview_options o;
         scene s = plan_case(i, &camera, &o);
         for (int k = 0; k < 2; ++k) {
-            image all = render(&s, o, 0.0, samples[k]);
+            image all = planned_render(&s, o, 0.0, samples[k]);
             for (int j = 0; j < 2; ++j) {
-                image less = render(&s, o, budgets[j], samples[k]);
+                image less = planned_render(&s, o, budgets[j], samples[k]);
                 const double error = plan_case_error(&less, &all);
                 printf("%-16s %2d spp, budget %.2f: error %.4f, foreseen %.4f, noise %.4f%s\n", plan_case_name(i),
                        samples[k], budgets[j], error, (double)foreseen.error, (double)foreseen.noise,
@@ -56,11 +40,11 @@ static void what_is_left_out_stays_within_the_budget(void **state)
                 /* What was foreseen comes from a few hundred pixels: seldom too little, and then not by much. */
                 if (!(error <= FORESEEN * (double)foreseen.error + 1e-3))
                     fail_msg("%s: error %g, foreseen %g", plan_case_name(i), error, (double)foreseen.error);
-                /* A lamp of .06 m at .55 m is off by about .02 as a cap: too much for the one budget, not for the
-                 * other. */
+                /* A lamp of .06 m at .55 m is off by no more than .02 as a cap: for the larger budget, and for no
+                 * smaller part with it, its middle stands for it. */
                 if (strcmp(plan_case_name(i), "lamp") == 0) {
-                    assert_int_equal(foreseen.cap_error > 0.0F, budgets[j] > 0.1);
-                    caps += foreseen.cap_error > 0.0F;
+                    assert_true(j == 0 || (foreseen.cap_error > 0.0F && foreseen.cap_error >= caps));
+                    caps = foreseen.cap_error;
                 }
                 image_free(&less);
             }
@@ -68,141 +52,7 @@ static void what_is_left_out_stays_within_the_budget(void **state)
         }
         scene_free(&s);
     }
-    assert_int_equal(caps, 2);
-}
-
-/* Against many samples of everything: error and noise together. */
-static void budget_is_met_against_many_samples_or_the_plan_says_no(void **state)
-{
-    (void)state;
-    const double budget = 0.1;
-    int met = 0;
-    for (int i = 0; i < plan_case_count(); i += 2) {
-        scene_camera camera;
-        preview_options o;
-        scene s = plan_case(i, &camera, &o);
-        image less = render(&s, o, budget, 16);
-        if (foreseen.is_met) {
-            image all = render(&s, o, 0.0, 256);
-            const double error = plan_case_error(&less, &all);
-            printf("%-16s 16 spp, budget %.2f: error %.4f, foreseen %.4f and noise %.4f\n", plan_case_name(i), budget,
-                   error, (double)foreseen.error, (double)foreseen.noise);
-            if (!(error <= budget))
-                fail_msg("%s: error %g, expected at most %g", plan_case_name(i), error, budget);
-            image_free(&all);
-            ++met;
-        } else {
-            printf("%-16s 16 spp, budget %.2f: said not to be met\n", plan_case_name(i), budget);
-        }
-        image_free(&less);
-        scene_free(&s);
-    }
-    assert_true(met > 2);
-}
-
-/* ---- as many samples as the budget takes ---- */
-
-enum { TRUTH_SAMPLES = 128, FIRST_SMOOTH = 4 }; /* of each of two references; the channel smooth.R of a film with all */
-
-/* Over pixels, of squares relative to the light with or without facets, whichever is more, of dark ones to a tenth of
- * the picture's mean, as the plan has its noise. */
-typedef struct squares {
-    double mean, deviation; /* deviation: of the mean */
-} squares;
-
-static double mean_of(const image *i, int pixel, int first)
-{
-    const float *const p = &i->pixels[(size_t)pixel * (size_t)i->channel_count + (size_t)first];
-    return ((double)p[0] + (double)p[1] + (double)p[2]) / 3.0;
-}
-
-/* Of what a is off the mean of the two references; a NULL: of what that mean is off by itself, half of their
- * difference.
- */
-static squares squares_of(const image *a, const image truth[2])
-{
-    squares s = { 0.0, 0.0 };
-    double picture = 0.0;
-    const int count = truth[0].width * truth[0].height;
-    for (int i = 0; i < count; ++i)
-        picture += mean_of(&truth[0], i, FIRST_SMOOTH) / count;
-    for (int i = 0; i < count; ++i) {
-        const double one = mean_of(&truth[0], i, 0), two = mean_of(&truth[1], i, 0);
-        const double smooth = 0.5 * (mean_of(&truth[0], i, FIRST_SMOOTH) + mean_of(&truth[1], i, FIRST_SMOOTH));
-        const double base = fmax(fmax(smooth, 0.5 * (one + two)), 0.1 * picture);
-        const double e = (a ? mean_of(a, i, 0) - 0.5 * (one + two) : 0.5 * (one - two)) / base;
-        s.mean += e * e / count;
-        s.deviation += e * e * e * e / count;
-    }
-    s.deviation = sqrt(fmax(s.deviation - s.mean * s.mean, 0.0) / count);
-    return s;
-}
-
-static void make_truth(const scene *s, preview_options o, image truth[2])
-{
-    o.aov = true;
-    for (uint32_t k = 0; k < 2; ++k) {
-        o.seed = 77U + k;
-        truth[k] = render(s, o, 0.0, TRUTH_SAMPLES);
-    }
-}
-
-/* The noise was told from 256 pixels and the picture has 576, so a mean of squares that is measured here is uncertain
- * by 1.5 times less than the one that the plan went by. A few pixels at the rim of a shadow make most of it. */
-static double sigma_of(const squares *measured)
-{
-    return measured->deviation * sqrt(1.0 + 2.25);
-}
-
-/* Returns the samples that were chosen. */
-static uint32_t check_chosen(const char *name, const scene *s, const preview_options *o, double budget,
-                             const image truth[2])
-{
-    const double of_truth = squares_of(NULL, truth).mean;
-    image chosen = render(s, *o, budget, 0);
-    const glint_plan_outcome plan = foreseen;
-    image whole = render(s, *o, 0.0, (int)plan.samples);
-    const squares both = squares_of(&chosen, truth), noise = squares_of(&whole, truth);
-    const double found = sqrt(fmax(noise.mean - of_truth, 0.0)), told = (double)plan.noise;
-    printf("%-16s budget %.2f: %4u samples, off by %.4f; noise %.4f, foreseen %.4f, truth %.4f\n", name, budget,
-           plan.samples, sqrt(both.mean), found, told, sqrt(of_truth));
-    assert_true(plan.is_met && plan.samples >= 16);
-    const double over = (both.mean - of_truth - budget * budget) / fmax(sigma_of(&both), 1e-12);
-    if (!(over <= 4.0))
-        fail_msg("%s: off by %g, expected at most %g: %.1f sigmas", name, sqrt(both.mean), budget, over);
-    const double noisier = (found * found - told * told) / fmax(sigma_of(&noise), 1e-12);
-    const bool is_waste = 2 * plan.samples <= TRUTH_SAMPLES && told > 2.0 * found + 1e-3;
-    if (!(noisier <= 4.0) || is_waste)
-        fail_msg("%s: noise %g, foreseen %g: %.1f sigmas", name, found, told, noisier);
-    image_free(&whole);
-    image_free(&chosen);
-    return plan.samples;
-}
-
-/* Against many more samples of everything, and others: what is left out and the noise of as many samples as were chosen
- * are within the budget together, and the noise is what was foreseen; nowhere is twice as much foreseen, which would
- * take four times the samples: where so few are taken that the truth has four times as many. */
-static void chosen_samples_meet_the_budget_and_are_not_many_more(void **state)
-{
-    (void)state;
-    static const char *const names[] = { "some", "lamp", "shadow", "penumbra", "bounce" };
-    int more = 0, seen = 0;
-    for (int i = 0; i < plan_case_count() && seen < 5; ++i) {
-        scene_camera camera;
-        preview_options o;
-        if (strcmp(plan_case_name(i), names[seen]) != 0)
-            continue;
-        ++seen;
-        scene s = plan_case(i, &camera, &o);
-        image truth[2];
-        make_truth(&s, o, truth);
-        more += check_chosen(plan_case_name(i), &s, &o, 0.1, truth) > 16;
-        more += check_chosen(plan_case_name(i), &s, &o, 0.02, truth) > 16;
-        image_free(&truth[0]);
-        image_free(&truth[1]);
-        scene_free(&s);
-    }
-    assert_true(seen == 5 && more >= 3);
+    assert_true(caps > 0.0F);
 }
 
 /* ---- no budget ---- */
@@ -215,12 +65,12 @@ static void no_budget_is_the_limit_of_small_ones(void **state)
         scene_camera camera;
         preview_options o;
         scene s = plan_case(i, &camera, &o);
-        image none = render(&s, o, 0.0, 4), least = render(&s, o, 1e-6, 4);
+        image none = planned_render(&s, o, 0.0, 4), least = planned_render(&s, o, 1e-6, 4);
         const double error = plan_case_error(&least, &none);
         if (!(error <= 1e-6))
             fail_msg("%s: a budget of 1e-6 is %g from none", plan_case_name(i), error);
         o.area_lights = GLINT_AREA_LIGHT_FAST;
-        image fit = render(&s, o, 0.0, 4);
+        image fit = planned_render(&s, o, 0.0, 4);
         if (strcmp(plan_case_name(i), "window") == 0)
             assert_true(plan_case_error(&fit, &none) > 1e-5);
         image_free(&fit);
@@ -235,8 +85,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_out_stays_within_the_budget),
         cmocka_unit_test(no_budget_is_the_limit_of_small_ones),
-        cmocka_unit_test(budget_is_met_against_many_samples_or_the_plan_says_no),
-        cmocka_unit_test(chosen_samples_meet_the_budget_and_are_not_many_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,8 @@ static void a_sun_is_a_cap_only_where_that_shows_not(void **state)
         const area_truth whole = area_truth_of(&lobe, l->wo, &sun, 100),
                          middle = area_truth_of(&lobe, l->wo, &point, 4);
         const double error = fabs(middle.specular / middle.solid_angle * whole.solid_angle / whole.specular - 1.0);
-        if (shade_tells_shape(&p, v3((double)unit[0], (double)unit[1], (double)unit[2]), sin(angle))) {
+        const vec3 towards = v3((double)unit[0], (double)unit[1], (double)unit[2]);
+        if (shade_see(&p, &towards, sin(angle)) == SHADE_SHAPE) {
             ++shapes;
             spared = fmax(spared, error);
             continue;

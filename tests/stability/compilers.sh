@@ -12,6 +12,8 @@ for build in "$@"; do
         echo "$name: stability_digest failed (a trap for a floating-point exception?)"
         exit 1
     fi
+    # An imitated machine has no previewer, and another libm.
+    [ "$name" != aarch64 ] || first=$(grep -v ^preview <<<"$first")
     # One line for all widths that give the same; machines have different ones.
     printed=$(sed -E 's/^lanes +[0-9]+ +/lanes /' <<<"$printed" | uniq)
     if [ -z "$first" ]; then

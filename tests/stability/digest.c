@@ -1,9 +1,11 @@
-/* Prints one hash for each model of what the library gives for a large sweep of queries, and one for each vector width
- * of the kernels of counting, lobes and the dictionary, with traps for floating-point exceptions on. compilers.sh runs
- * it as it was built by several compilers at several levels of optimisation: every build must print the same. */
+/* Prints one hash for each model of what the library gives for a large sweep of queries, one for each vector width
+ * of the kernels of counting, lobes, lights and the dictionary, and one of the previewer's own numbers, with traps for
+ * floating-point exceptions on. compilers.sh runs it as it was built by several compilers at several levels of
+ * optimisation: every build must print the same. */
 #define _GNU_SOURCE
 #include "traps.h"
 
+#include "digest_preview.h"
 #include "exact_inputs.h"
 #include "model/area_kernel.h"
 #include "model/counting_kernel.h"
@@ -22,11 +24,15 @@ static glint_area_light exact_light(uint64_t *random)
     for (int k = 0; k < 3; k++) {
         l.half_x[k] = size * (float)random_between(random, -0.5, 0.5);
         l.half_y[k] = size * (float)random_between(random, -0.5, 0.5);
-        l.corners[0][k] = l.center[k];
-        l.corners[1][k] = l.center[k] + l.half_x[k];
-        l.corners[2][k] = l.center[k] + l.half_y[k];
     }
-    l.corner_count = 3;
+    /* A part of an octagon. */
+    static const float ring[GLINT_MAX_CORNERS][2] = { { 1.0F, 0.0F },    { 0.75F, 0.75F }, { 0.0F, 1.0F },
+                                                      { -0.75F, 0.75F }, { -1.0F, 0.0F },  { -0.75F, -0.75F },
+                                                      { 0.0F, -1.0F },   { 0.75F, -0.75F } };
+    l.corner_count = 3U + (uint32_t)(random_bits(random) % 6);
+    for (uint32_t i = 0; i < l.corner_count; i++)
+        for (int k = 0; k < 3; k++)
+            l.corners[i][k] = l.center[k] + ring[i][0] * l.half_x[k] + ring[i][1] * l.half_y[k];
     return l;
 }
 
@@ -71,10 +77,13 @@ static uint64_t hash_queries(uint64_t hash, const glint_material *m, uint64_t *r
     return hash;
 }
 
+/* Caps, and lights of real size, at the same points. */
 static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *random)
 {
     static double u[BATCH], v[BATCH];
     static float step[4][BATCH], wo[3][BATCH], wi[3][BATCH], angle[BATCH], rgb[3][BATCH];
+    static glint_area_light light[BATCH];
+    static uint32_t draw[BATCH];
     for (int i = 0; i < BATCH; i++) {
         float o[3], w[3];
         exact_direction(random, o);
@@ -91,25 +100,30 @@ static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *ran
             wi[k][i] = w[k];
         }
         angle[i] = exact_solid_angle(random);
+        light[i] = exact_light(random);
+        draw[i] = (uint32_t)random_bits(random);
     }
-    const glint_batch b = { sizeof(b),
-                            BATCH,
-                            u,
-                            v,
-                            step[0],
-                            step[1],
-                            step[2],
-                            step[3],
-                            NULL,
-                            { wo[0], wo[1], wo[2] },
-                            { wi[0], wi[1], wi[2] },
-                            angle,
-                            NULL,
-                            { rgb[0], rgb[1], rgb[2] },
-                            NULL };
-    glint_eval_batch(m, &b);
-    for (int k = 0; k < 3; k++)
-        hash = hash_floats(hash, rgb[k], BATCH);
+    glint_batch b = GLINT_BATCH_INIT;
+    b.count = BATCH;
+    b.u = u;
+    b.v = v;
+    b.dudx = step[0];
+    b.dudy = step[1];
+    b.dvdx = step[2];
+    b.dvdy = step[3];
+    for (int k = 0; k < 3; k++) {
+        b.wo[k] = wo[k];
+        b.wi[k] = wi[k];
+        b.rgb[k] = rgb[k];
+    }
+    b.solid_angle_sr = angle;
+    b.draw = draw;
+    for (int is_area = 0; is_area < 2; is_area++) {
+        b.area_lights = is_area ? light : NULL;
+        glint_eval_batch(m, &b);
+        for (int k = 0; k < 3; k++)
+            hash = hash_floats(hash, rgb[k], BATCH);
+    }
     return hash;
 }
 
@@ -215,6 +229,11 @@ static void fill_lit_point(area_crowd *p, int i, uint64_t *random)
     p->alpha_y[i] = i % 2 ? p->alpha_x[i] : ldexpf(1.0F, -(int)(random_bits(random) % 13));
     p->total_area[i] = i % 3 ? 0.0F : 1.25F;
     p->hidden[i] = i % 4 ? 0.0F : (float)random_uniform(random);
+    const uint32_t corners = l.kind == GLINT_AREA_POLYGON ? l.corner_count : 0U;
+    p->corner_count[i] = (int32_t)corners;
+    for (uint32_t n = 0; n < GLINT_MAX_CORNERS; n++)
+        for (int k = 0; k < 3; k++)
+            p->corner[n][k][i] = corners ? l.corners[n < corners ? n : 0U][k] : 0.0F;
     p->kind[i] = (int32_t)l.kind;
     p->two_sided[i] = i % 5 != 0;
     p->size[i] = l.kind == GLINT_AREA_SPHERE ? l.radius : l.solid_angle_sr;
@@ -230,6 +249,7 @@ static uint64_t hash_lights(uint64_t hash, size_t lanes)
         float left[LOBE_MOST];
         o.distribution = (glint_distribution)(round % 2);
         o.fresnel = (glint_fresnel)(round / 2 % 3);
+        p.most_corners = GLINT_MAX_CORNERS;
         for (int i = 0; i < LOBE_MOST; i++)
             fill_lit_point(&p, i, &random);
         area_kernel_widest(lanes)(&o, &p, LOBE_MOST, 1, &lit, left);
@@ -291,6 +311,8 @@ static void print_kernels(void)
         w.kernel(&points, POINTS, factor[0], facets);
         uint64_t hash = hash_floats(HASH_START, factor[0], POINTS);
         hash = hash_floats(hash, facets, POINTS);
+        w.drawn(&points, a.seed, POINTS, factor[0], facets);
+        hash = hash_floats(hash, factor[0], POINTS);
         float *const factors[3] = { factor[0], factor[1], factor[2] };
         w.tinted(&points, POINTS, &palette, factors, facets);
         for (int k = 0; k < 3; k++)
@@ -307,5 +329,8 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof(MODELS) / sizeof(MODELS[0]); i++)
         print_model(MODELS[i].model);
     print_kernels();
+#if defined(DIGEST_PREVIEW)
+    digest_print_preview();
+#endif
     return 0;
 }

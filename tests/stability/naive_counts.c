@@ -43,7 +43,7 @@ static void no_variance(void)
         &(naive_row){ "p = 1 + 2⁻²³, as D Ω / D_H may round to: 10⁹ facets, all lit", "N p + √(N p (1 - p)) z",
                       (double)(n * p + sqrtf(f(n * p * (1.0F - p))) * 0.5F), 1e9L,
                       (double)binomial_weighted_sum(n, &c, uniform, weight, 0.0F, NULL, (binomial_many){ 12, 1.0F }),
-                      "p at most 1; from there the lobe is smooth", "exact", "counting_edges" });
+                      "p at most 1; from there the lobe is smooth", "exact", "hard_cases" });
 }
 
 /* The library's own pixel: colour over the smooth one. */

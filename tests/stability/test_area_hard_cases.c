@@ -46,6 +46,87 @@ static void lights_at_the_edge_are_sane(void **state)
     }
 }
 
+/* A light as it should be, in which some numbers, few or many, have any bits. */
+static glint_area_light light_of_any_bits(uint64_t *random)
+{
+    glint_area_light l = { .kind = (glint_area_kind)(random_bits(random) % 5),
+                           .two_sided = (uint32_t)(random_bits(random) & 1),
+                           .corner_count = 3U + (uint32_t)(random_bits(random) % 6) };
+    const uint64_t odds = 2U << (2 * (random_bits(random) % 4));
+    const double size = random_log_between(random, 1e-6, 1.0);
+    float *const all = &l.hidden;
+    random_direction(random, l.center);
+    l.solid_angle_sr = l.radius = (float)size;
+    for (int k = 0; k < 3; k++) {
+        l.half_x[k] = (float)(size * random_between(random, -1.0, 1.0));
+        l.half_y[k] = (float)(size * random_between(random, -1.0, 1.0));
+        for (uint32_t i = 0; i < l.corner_count; i++)
+            l.corners[i][k] = l.center[k] + (float)(size * random_between(random, -1.0, 1.0));
+    }
+    for (size_t k = 0; k < (sizeof(l) - offsetof(glint_area_light, hidden)) / sizeof(float); k++)
+        if (random_bits(random) % odds == 0) {
+            const uint32_t bits = (uint32_t)(random_bits(random) >> 32);
+            memcpy(&all[k], &bits, sizeof(bits));
+        }
+    return l;
+}
+
+/* A million and more, in vectors: one lane's hard case must not raise an exception in another's branch. Of each batch
+ * the first few again by themselves, to the same bits. */
+static void lights_of_any_bits_are_sane(void **state)
+{
+    (void)state;
+    enum { COUNT = 256, ALONE = 4 };
+    static double u[COUNT], v[COUNT];
+    static float step[4][COUNT], wo[3][COUNT];
+    static glint_surface surface[COUNT];
+    static glint_area_light light[COUNT];
+    static glint_value value[COUNT];
+    uint64_t random = 25;
+    FOR_EACH_CONFIGURATION(c, m, row)
+    for (int round = 0; round < (row->model <= GLINT_MODEL_COUNTING ? 170 : 40); round++) {
+        for (int i = 0; i < COUNT; i++) {
+            float o[3];
+            random_direction(&random, o);
+            const glint_footprint f = random_footprint(&random);
+            u[i] = f.u;
+            v[i] = f.v;
+            step[0][i] = round % 4 ? f.dudx : hostile(&random, f.dudx);
+            step[1][i] = f.dudy;
+            step[2][i] = f.dvdx;
+            step[3][i] = f.dvdy;
+            for (int k = 0; k < 3; k++)
+                wo[k][i] = round % 4 ? o[k] : hostile(&random, o[k]);
+            surface[i] = glint_material_surface(m);
+            surface[i].alpha_x = round % 3 ? surface[i].alpha_x : hostile(&random, 0.1F);
+            light[i] = light_of_any_bits(&random);
+        }
+        glint_batch b = GLINT_BATCH_INIT;
+        b.count = COUNT;
+        b.u = u;
+        b.v = v;
+        b.dudx = step[0];
+        b.dudy = step[1];
+        b.dvdx = step[2];
+        b.dvdy = step[3];
+        for (int k = 0; k < 3; k++)
+            b.wo[k] = wo[k];
+        b.surfaces = surface;
+        b.area_lights = light;
+        b.values = value;
+        assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
+        for (int i = 0; i < COUNT; i++)
+            assert_sane(&value[i]);
+        for (int i = 0; i < ALONE; i++) {
+            const glint_footprint f = { u[i], v[i], step[0][i], step[1][i], step[2][i], step[3][i], 0U };
+            const float o[3] = { wo[0][i], wo[1][i], wo[2][i] };
+            glint_value alone;
+            glint_eval_area(m, &surface[i], &f, o, &light[i], &alone);
+            assert_memory_equal(&alone, &value[i], sizeof(alone));
+        }
+    }
+}
+
 /* What a light of a hemisphere sends is the albedo: the white furnace of the smooth part. */
 static void a_light_all_around_shows_the_albedo(void **state)
 {
@@ -93,6 +174,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(lights_at_the_edge_are_sane, with_traps, without_traps),
+        cmocka_unit_test_setup_teardown(lights_of_any_bits_are_sane, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(a_light_all_around_shows_the_albedo, with_traps, without_traps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,7 +2,8 @@
  * are lit.
  *
  * One draw has the variance 1 / (2 N p) about one, so that a standard error of a sixth of a percent takes 2e5 / (N p)
- * of them: the short form leaves out what takes more than 2e7. */
+ * of them: the short form leaves out what takes more than 2e7, the middle one has wider bars where it takes more than
+ * 1e8. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,6 +30,12 @@ static const setting SETTINGS[] = {
 
 /* Of a mean; the bound of half a percent is three of them. */
 static const double MOST_SIGMA = 0.005 / 3.0;
+
+/* Those that it takes, by the variance and a fifth more. */
+static double draws_for(double lit)
+{
+    return fmax(200000.0, 0.6 / lit / (MOST_SIGMA * MOST_SIGMA));
+}
 
 typedef struct points {
     double u[CHUNK], v[CHUNK];
@@ -60,7 +67,7 @@ static void scatter(points *q, double tilt, uint64_t *random)
 }
 
 /* Mean of counting / smooth over seeds and places; *p: the chance that a facet is lit, as the light's size makes it. */
-static moments mean_over_seeds(const setting *s, double facets, double *p, uint64_t *random)
+static moments mean_over_seeds(const setting *s, double facets, double *p, double most_draws, uint64_t *random)
 {
     static points q;
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
@@ -103,7 +110,7 @@ static moments mean_over_seeds(const setting *s, double facets, double *p, uint6
     for (int n = 0; n < CHUNK; n++)
         q.solid_angle[n] = light.solid_angle_sr;
     /* How many is fixed before the first is drawn: to stop when a mean looks good would bias it. */
-    const double draws = fmax(200000.0, 0.6 / (facets * *p) / (MOST_SIGMA * MOST_SIGMA));
+    const double draws = fmin(draws_for(facets * *p), most_draws);
     moments ratio = { 0 };
     while (ratio.count < draws) {
         scatter(&q, tilt, random);
@@ -129,6 +136,7 @@ int main(int argc, char **argv)
     study s = study_start(argc, argv);
     FILE *table = study_open(&s, "mean.csv");
     fprintf(table, "material,tilt,lit_probability,facets_per_pixel,mean,sigma,draws\n");
+    const double most_draws = s.is_middle ? 1e8 : (double)INFINITY;
     uint64_t random = 2;
     double worst = 0.0;
     for (int c = 0; c < 4; c++) {
@@ -137,20 +145,26 @@ int main(int argc, char **argv)
                 double p = chances[c];
                 if (s.is_short && !is_quick(i, k, facets[k] * p))
                     continue;
-                const moments r = mean_over_seeds(&SETTINGS[i], facets[k], &p, &random);
+                const moments r = mean_over_seeds(&SETTINGS[i], facets[k], &p, most_draws, &random);
                 const double error = r.mean - 1.0, sigma = moments_standard_error(&r);
+                /* Fewer draws than it takes: so much wider. */
+                const double most_sigma = MOST_SIGMA * fmax(1.0, sqrt(draws_for(facets[k] * p) / r.count));
                 fprintf(table, "%s,%g,%.3g,%g,%.6f,%.6f,%.0f\n", SETTINGS[i].name, SETTINGS[i].tilt, p, facets[k],
                         r.mean, sigma, r.count);
-                worst = fmax(worst, fabs(error));
+                if (most_sigma <= MOST_SIGMA)
+                    worst = fmax(worst, fabs(error));
                 /* 144 means: 4.2 sigmas is a significance of .004 in all. 1e-4 is the law's own,
                  * tests/unit/test_binomial. */
-                study_check(&s, fabs(error) < 4.2 * sigma + 1e-4 && fabs(error) < 0.005 && sigma < MOST_SIGMA,
+                study_check(&s,
+                            fabs(error) < 4.2 * sigma + 1e-4 && fabs(error) < 3.0 * most_sigma && sigma < most_sigma,
                             "%s, p = %g, N = %g: mean %.5f, sigma %.5f (%+.1f)", SETTINGS[i].name, p, facets[k], r.mean,
                             sigma, error / sigma);
             }
         fprintf(table, "\n\n");
     }
     study_close(table);
-    printf("largest deviation of the mean from smooth: %.2f %% (bound 0.5 %%)\n", 100.0 * worst);
+    printf("largest deviation of the mean from smooth, of those with a sigma of a sixth of a percent: %.2f %% (bound "
+           "0.5 %%)\n",
+           100.0 * worst);
     return study_end(&s);
 }

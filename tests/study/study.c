@@ -20,12 +20,14 @@ study study_start(int argc, char **argv)
     for (int i = 1; i < argc; i++)
         if (strcmp(argv[i], "--short") == 0)
             s.is_short = 1;
+        else if (strcmp(argv[i], "--middle") == 0)
+            s.is_middle = 1;
         else if (argv[i][0] != '-' && !s.folder)
             s.folder = argv[i];
         else
             s.checks = -1;
-    if (!s.folder || s.checks < 0) {
-        fprintf(stderr, "usage: %s [--short] FOLDER\n", argv[0]);
+    if (!s.folder || s.checks < 0 || (s.is_short && s.is_middle)) {
+        fprintf(stderr, "usage: %s [--short | --middle] FOLDER\n", argv[0]);
         exit(2);
     }
     if (mkdir(s.folder, 0777) != 0 && errno != EEXIST)

@@ -1,8 +1,8 @@
 /* What the programs of the study share: their command line, the tables that they write, and the bounds that did not
  * hold.
  *
- * NAME [--short] FOLDER writes FOLDER/NAME*.csv and exits with 1 when a bound did not hold. --short: what a test has
- * the time for.
+ * NAME [--short | --middle] FOLDER writes FOLDER/NAME*.csv and exits with 1 when a bound did not hold. --short: what a
+ * test has the time for. --middle: every row, in minutes, with wider bars where it takes more.
  */
 #ifndef STUDY_H
 #define STUDY_H
@@ -13,7 +13,7 @@
 
 typedef struct study {
     const char *folder;
-    int is_short;
+    int is_short, is_middle;
     int checks, failed;
 } study;
 

@@ -86,6 +86,30 @@ static double rms_slope(const bench *b)
     return sqrt(square);
 }
 
+static example_footprint footprint_of(const query *q, double sigma)
+{
+    const float spread = (float)(sigma * sigma);
+    return (example_footprint){
+        { CELL[0], CELL[1] }, { (float)q->at[0], (float)q->at[1] }, { spread, 0.0F, spread }, 1.0F
+    };
+}
+
+void seed_race_count(const bench *b, const seed_surface *all, double sigma_texels, int is_lit, int queries)
+{
+    const example *e = b->material.baked;
+    const double sigma = sigma_texels / e->size, spread[3] = { sigma * sigma, 0.0, sigma * sigma }, rms = rms_slope(b);
+    uint64_t random = 1;
+    for (int i = 0; i < queries; i++) {
+        const query q = ask(b, all, sigma, rms, is_lit, &random);
+        const example_footprint f = footprint_of(&q, sigma);
+        const float slope[2] = { (float)q.slope[0], (float)q.slope[1] };
+        assert_true(example_density(e, &f, slope, 0.0F, SEED) >= 0.0F);
+        assert_true(seed_surface_density(&q.reached, q.at, spread, q.slope, 0.0) >= 0.0);
+        free(q.reached.seeds);
+        free(q.mattering.seeds);
+    }
+}
+
 seed_race seed_race_run(const bench *b, const seed_surface *all, double sigma_texels, int is_lit, int queries)
 {
     const example *e = b->material.baked;
@@ -97,9 +121,7 @@ seed_race seed_race_run(const bench *b, const seed_surface *all, double sigma_te
     double worst = 0.0, peak = 0.0;
     for (int i = 0; i < queries; i++) {
         const query q = ask(b, all, sigma, rms, is_lit, &random);
-        const example_footprint f = {
-            { CELL[0], CELL[1] }, { (float)q.at[0], (float)q.at[1] }, { (float)spread[0], 0.0F, (float)spread[2] }, 1.0F
-        };
+        const example_footprint f = footprint_of(&q, sigma);
         const float slope[2] = { (float)q.slope[0], (float)q.slope[1] };
         double own = 0.0, sum = 0.0, pruned = 0.0;
         const double begin = bench_seconds();

@@ -23,4 +23,8 @@ typedef struct seed_race {
 /* is_lit: the slope is one of a seed below the footprint; else anywhere within three times the root mean square. */
 seed_race seed_race_run(const bench *b, const seed_surface *all, double sigma_texels, int is_lit, int queries);
 
+/* Each once at so many queries, for programs that count the instructions of example_density and seed_surface_density.
+ */
+void seed_race_count(const bench *b, const seed_surface *all, double sigma_texels, int is_lit, int queries);
+
 #endif

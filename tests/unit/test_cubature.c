@@ -1,4 +1,4 @@
-/* Rules over a square, a disk and a triangle: each is exact for every polynomial of its degree, by closed forms. */
+/* Rules over a square and a disk: each is exact for every polynomial of its degree, by closed forms. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +12,6 @@
 /* The mean of x^i y^j. */
 static double mean_of(int shape, int i, int j)
 {
-    if (shape == CUBATURE_TRIANGLE)
-        return 2.0 * tgamma(i + 1.0) * tgamma(j + 1.0) / tgamma(i + j + 3.0);
     if (i % 2 || j % 2)
         return 0.0;
     if (shape == CUBATURE_SQUARE)
@@ -34,7 +32,7 @@ static double sum_of(const cubature *c, int i, int j)
 static void every_rule_is_exact_up_to_its_degree(void **state)
 {
     (void)state;
-    static const int degree[CUBATURE_LEVELS] = { 5, 7, 15 };
+    static const int degree[CUBATURE_LEVELS] = { 5, 7, 11, 15 };
     for (int shape = 0; shape < CUBATURE_SHAPES; shape++)
         for (int level = 0; level < CUBATURE_LEVELS; level++) {
             const cubature *c = &cubatures[shape][level];
@@ -59,9 +57,7 @@ static void every_point_lies_within(void **state)
             for (int k = 0; k < CUBATURE_ROW * c->row_count; k++) {
                 const float x = c->row[k / 8][0][k % 8], y = c->row[k / 8][1][k % 8], w = c->row[k / 8][2][k % 8];
                 assert_true(w >= 0.0F);
-                assert_true(shape == CUBATURE_SQUARE ? fabsf(x) < 1.0F && fabsf(y) < 1.0F
-                            : shape == CUBATURE_DISK ? x * x + y * y < 1.0F
-                                                     : x > 0.0F && y > 0.0F && x + y < 1.0F);
+                assert_true(shape == CUBATURE_SQUARE ? fabsf(x) < 1.0F && fabsf(y) < 1.0F : x * x + y * y < 1.0F);
             }
         }
 }

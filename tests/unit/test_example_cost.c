@@ -1,8 +1,9 @@
-/* What the example model costs: memory against the paper's Table 3, baking against its Table 2, and evaluation against
- * the sum of the seeds under the same footprints. Times are processor time of one run and are printed. */
+/* What the example model costs, memory against the paper's Table 3, and what it shows against the sum of the seeds
+ * under the same footprints. Times are processor time of one run, printed beside those of the paper's Table 2 and held
+ * to no bound: example_ways_cost counts instructions. */
 #include "seed_race.h"
 
-static void maps_need_less_memory_and_time_than_the_papers(void **state)
+static void maps_need_less_memory_than_the_papers(void **state)
 {
     (void)state;
     static const struct {
@@ -35,7 +36,6 @@ static void maps_need_less_memory_and_time_than_the_papers(void **state)
         printf("%-18s %3u^2  %6.2f MiB (paper %5.2f, %4.0f times)  baked in %4.0f ms (paper %4.1f s)\n", rows[i].name,
                rows[i].size, mib, rows[i].paper_mib, rows[i].paper_mib / mib, 1e3 * seconds, rows[i].paper_s);
         assert_true(mib < rows[i].paper_mib);
-        assert_true(seconds < rows[i].paper_s);
         bench_free(&b);
     }
 }
@@ -43,7 +43,7 @@ static void maps_need_less_memory_and_time_than_the_papers(void **state)
 /* Footprints from a tenth of a texel to half a map, tiled and scattered; slopes that shine and slopes from everywhere.
  * Both give the same numbers within what docs/models.md promises. Below two texels a footprint holds a dozen seeds,
  * which are the sum itself. */
-static void evaluation_is_faster_than_the_sum_of_seeds(void **state)
+static void maps_show_the_sum_of_seeds_under_any_footprint(void **state)
 {
     (void)state;
     static const double sigmas[] = { 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0 };
@@ -74,44 +74,7 @@ static void evaluation_is_faster_than_the_sum_of_seeds(void **state)
                 sum += r.sum_us;
             }
         printf("in all %.0f times (paper: 5 to 12)\n", sum / own);
-        assert_true(sum > (placement ? 5.0 : 12.0) * own);
         free(all.seeds);
-        bench_free(&b);
-    }
-}
-
-/* However large the pixel: the nodes that are looked at are bounded. A loop over a million examples would take a
- * thousand times as long as one over a thousand. */
-static void cost_does_not_grow_with_the_footprint(void **state)
-{
-    (void)state;
-    for (int scattered = 0; scattered < 2; scattered++) {
-        glint_example o = GLINT_EXAMPLE_INIT;
-        o.placement = scattered ? GLINT_EXAMPLE_SCATTERED : GLINT_EXAMPLE_TILED;
-        o.sigma_r = 0.02F;
-        bench b;
-        bench_make(&b, GLINT_EXAMPLE_ISOTROPIC_NOISE, &o);
-        double us[2];
-        for (int k = 0; k < 2; k++) {
-            const float side = k ? 1000.0F : 10.0F; /* examples along a pixel */
-            const double begin = bench_seconds();
-            for (int i = 0; i < 20000; i++) {
-                const glint_footprint f = { 0.37 * i, 0.11 * i, side, 0.0F, 0.0F, side, 0U };
-                const model_query q = { .material = &b.material,
-                                        .surface = &b.material.options.surface,
-                                        .footprint = &f,
-                                        .solid_angle_sr = 1e-4F,
-                                        .wo = { 0.0F, 0.0F, 1.0F },
-                                        .wi = vec3_normalize((vec3){ 0.3F, 0.1F, 1.0F }) };
-                b.material.options.example.side_m = 1.0F;
-                glint_value v;
-                example_model.eval(&q, &v);
-                assert_true(v.smooth[0] > 0.0F);
-            }
-            us[k] = 1e6 * (bench_seconds() - begin) / 20000.0;
-        }
-        printf("%s: %.2f us over 10^2 examples, %.2f us over 10^6\n", scattered ? "scattered" : "tiled", us[0], us[1]);
-        assert_true(us[1] < 3.0 * us[0]);
         bench_free(&b);
     }
 }
@@ -119,9 +82,8 @@ static void cost_does_not_grow_with_the_footprint(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_need_less_memory_and_time_than_the_papers),
-        cmocka_unit_test(evaluation_is_faster_than_the_sum_of_seeds),
-        cmocka_unit_test(cost_does_not_grow_with_the_footprint),
+        cmocka_unit_test(maps_need_less_memory_than_the_papers),
+        cmocka_unit_test(maps_show_the_sum_of_seeds_under_any_footprint),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,10 +133,87 @@ static void every_width_agrees_with_one_square_after_another(void **state)
         }
 }
 
+/* ---- the largest footprint ---- */
+
+/* A pixel far wider than what is looked at, on the smallest map with the widest texels, with its middle at (x, y) of a
+ * square. */
+static question widest_question(const bench *b, float x, float y, example_footprint *f, const float slope[2])
+{
+    const example *e = b->material.baked;
+    const glint_footprint pixel = { 0.0, 0.0, 50.0F, 0.0F, 0.0F, 50.0F, 0U };
+    const glint_surface surface = b->material.options.surface;
+    const model_query q = { .material = &b->material, .surface = &surface, .footprint = &pixel };
+    assert_true(lattice_footprint(&e->lattice, &q, 1.0F, f));
+    f->at[0] = x;
+    f->at[1] = y;
+    const question widest = { .e = e, .f = f, .slope = slope, .light_variance = 1e-4F };
+    const double half = 3.5 * sqrt((double)f->spread.xx + (double)e->lattice.seed_variance);
+    assert_true(half > 7.0 && half < 7.5); /* wider than which a side may hold seventeen squares */
+    question found = widest;
+    found.reach = (extent){ { x, y }, { (float)half, (float)half }, (float)half };
+    return found;
+}
+
+/* Squares from floor(at - half) to floor(at + half). */
+static int squares_along(double at, double half)
+{
+    return (int)(floor(at + half) - floor(at - half)) + 1;
+}
+
+static double sum_of_squares(const question *q, int half)
+{
+    gathered sum = { 0 };
+    for (int j = -half; j <= half; j++)
+        for (int i = -half; i <= half; i++) {
+            const instance self = lattice_instance(&q->e->lattice, q->f->cell[0], q->f->cell[1], i, j, q->seed);
+            example_view v = example_view_of(q, &self);
+            v.wants_mass = 0;
+            example_descend(&v, 0, &sum);
+        }
+    return (double)sum.value;
+}
+
+static void the_largest_footprint_fills_the_room_and_loses_no_square(void **state)
+{
+    (void)state;
+    glint_example o = GLINT_EXAMPLE_INIT;
+    o.size = 8;
+    o.sigma_h = 1.0F;
+    o.side_m = 1.0F;
+    o.mirror = 0U;
+    bench b;
+    bench_make(&b, GLINT_EXAMPLE_ISOTROPIC_NOISE, &o);
+    static const float places[] = { 0.0F, 0.01F, 0.3F, 0.5F, 0.7F, 0.99F, 0.99999994F };
+    enum { PLACES = sizeof(places) / sizeof(places[0]) };
+    size_t most = 0;
+    for (int k = 0; k < PLACES * PLACES; k++) {
+        static example_squares squares;
+        static float centre[2][EXAMPLE_MOST_SQUARES];
+        example_footprint f;
+        const example_texel t = example_texel_at(b.material.baked, (uint32_t)k % 8U, (uint32_t)k / 8U % 8U);
+        const question q = widest_question(&b, places[k % PLACES], places[k / PLACES], &f, t.slope);
+        const double half = (double)q.reach.half[0];
+        example_find_squares(&q, &squares, centre);
+        const int expected = squares_along((double)f.at[0], half) * squares_along((double)f.at[1], half);
+        assert_int_equal(squares.count, expected);
+        most = squares.count > most ? squares.count : most;
+        for (size_t i = 1; i < squares.count; i++) /* row by row, and so none twice */
+            assert_true(centre[1][i] > centre[1][i - 1] ||
+                        (centre[1][i] == centre[1][i - 1] && centre[0][i] == centre[0][i - 1] + 1.0F));
+        gathered sum = { 0 };
+        example_gather_tiled(&q, 0, &sum);
+        assert_near((double)sum.value, sum_of_squares(&q, 12), (double)(25 * 25 * 8 * 8) * 0x1p-24);
+        assert_true(sum.value > 0.0F);
+    }
+    assert_int_equal(most, EXAMPLE_MOST_SQUARES);
+    bench_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_width_agrees_with_one_square_after_another),
+        cmocka_unit_test(the_largest_footprint_fills_the_room_and_loses_no_square),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
