@@ -215,7 +215,7 @@ typedef struct glint_material_options {
      *                   this, 1 / sqrt(N p), the smooth value stands for them. From there up to twice as much they are
      *                   blended in, and what is left out never varies by more than this. The mean stays. Sampling keeps
      *                   all facets.
-     * draw_deviation    Counting. Where one of the model's 48 realisations varies by less than this, 3 / sqrt(N p), one
+     * draw_deviation    Counting. Where one of the model's 36 realisations varies by less than this, 3 / sqrt(N p), one
      *                   stands for all; glint_footprint.draw chooses, and the mean over draws is the sum of all. Not of
      *                   facets of different colours. */
     float smooth_deviation, draw_deviation;

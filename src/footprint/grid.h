@@ -287,41 +287,37 @@ static inline void grid_surround(const grid_place *p, vuint grid, vuint cell[GRI
     cell[2] = origin + HASH_Y;
 }
 
-/* The triangles of these grids' lattices around (u, v): three cells and barycentric weights of each. grids: known to
- * the compiler, 1 or all.
- *
- * Step by step for all of them: what is computed for one is a long chain, and a compiler does not interleave chains. */
+/* The triangles of these grids' lattices around (u, v): three cells, not yet hashed, and barycentric weights of each.
+ * grids: known to the compiler, 1 or all. */
 static inline __attribute__((always_inline)) void grid_lay(const grid_way *way, const grid_size *size, const int grids,
                                                            vdouble u, vdouble v, vuint *cell, vfloat *weight)
 {
     const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
-    vuint grid[GRID_COUNT];
-    grid_map map[GRID_COUNT];
-    grid_place place[GRID_COUNT];
 #pragma GCC unroll 4
-    for (int i = 0; i < grids; i++)
-        grid[i] = hash_top(size[i].number + way[i].number, hash);
-#pragma GCC unroll 4
-    for (int i = 0; i < grids; i++)
-        map[i] = grid_map_of(&way[i], size[i].across, grid[i]);
-#pragma GCC unroll 4
-    for (int i = 0; i < grids; i++)
-        place[i] = grid_place_of(&map[i], u, v);
-#pragma GCC unroll 4
-    for (int i = 0; i < grids; i++)
-        grid_surround(&place[i], grid[i], cell + GRID_CELLS * i, weight + GRID_CELLS * i);
-#pragma GCC unroll 12
-    for (int i = 0; i < GRID_CELLS * grids; i++)
-        cell[i] = hash_full(cell[i]);
+    for (int i = 0; i < grids; i++) {
+        const vuint grid = hash_top(size[i].number + way[i].number, hash);
+        const grid_map map = grid_map_of(&way[i], size[i].across, grid);
+        const grid_place place = grid_place_of(&map, u, v);
+        grid_surround(&place, grid, cell + GRID_CELLS * i, weight + GRID_CELLS * i);
+    }
 }
 
 /* Those of one grid. */
-static inline void grid_cells(const grid_vertex *vertex, vdouble u, vdouble v, vuint seed, vuint cell[GRID_CELLS],
-                              vfloat weight[GRID_CELLS])
+static inline void grid_around(const grid_vertex *vertex, vdouble u, vdouble v, vuint seed, vuint cell[GRID_CELLS],
+                               vfloat weight[GRID_CELLS])
 {
     const grid_way way = grid_way_of(vertex->direction, vertex->ratio);
     const grid_size size = grid_size_of(vertex->level, seed);
     grid_lay(&way, &size, 1, u, v, cell, weight);
+}
+
+/* The same, hashed. */
+static inline void grid_cells(const grid_vertex *vertex, vdouble u, vdouble v, vuint seed, vuint cell[GRID_CELLS],
+                              vfloat weight[GRID_CELLS])
+{
+    grid_around(vertex, u, v, seed, cell, weight);
+    for (int i = 0; i < GRID_CELLS; i++)
+        cell[i] = hash_full(cell[i]);
 }
 
 /* Those of all four, which have three directions and two sizes among them. */
@@ -338,6 +334,9 @@ static inline void grid_point_of(const grid_simplex *t, vdouble u, vdouble v, vu
     const grid_size size[GRID_COUNT] = { low, grid_select_size(t->last, &high, &low),
                                          grid_select_size(t->first, &low, &high), high };
     grid_lay(way, size, GRID_COUNT, u, v, p->cell, p->weight);
+#pragma GCC unroll 12
+    for (int i = 0; i < GRID_COUNT * GRID_CELLS; i++)
+        p->cell[i] = hash_full(p->cell[i]);
     for (int i = 0; i < GRID_COUNT; i++)
         p->share[i] = t->share[i];
 }

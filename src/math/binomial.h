@@ -9,7 +9,7 @@
  * survival function keeps its relative precision in the tail that matters. Above one half p is replaced by 1 - p, u by
  * 1 - u, and the count is taken from the other end.
  *
- * Draws are made several at a time because in a glint twelve share one (N, p) and so one exp and one log.
+ * Draws are made several at a time because in a glint nine share one (N, p) and so one exp and one log.
  */
 #ifndef MATH_BINOMIAL_H
 #define MATH_BINOMIAL_H
@@ -29,7 +29,7 @@ typedef struct binomial_chance {
     vmask flip;
     vfloat p;        /* min(p, 1 - p) */
     vfloat given;    /* p as it came */
-    vfloat log_miss; /* log(1 - p) */
+    vfloat log_miss; /* log2(1 - p) */
     vfloat odds;     /* p / (1 - p) */
 } binomial_chance;
 
@@ -40,7 +40,7 @@ static inline binomial_chance binomial_chance_of(vfloat p)
     c.given = p;
     c.flip = less(splat(0.5F), p);
     c.p = choose(c.flip, 1.0F - p, p);
-    c.log_miss = log1m_half(c.p);
+    c.log_miss = log2_of_miss(c.p);
     c.odds = c.p / (1.0F - c.p);
     return c;
 }
@@ -128,7 +128,7 @@ binomial_start_of(const binomial_law *l, const binomial_chance *chance, const vi
     /* Lanes that are not walked have no trials: their chances stay numbers, and no uniform is as small as theirs. */
     const vfloat n = choose(l->wide, splat(0.0F), l->n);
     binomial_start s;
-    exp_both(n * chance->log_miss, BINOMIAL_SCALE_LOG2, &s.survival, &s.mass);
+    exp2_both(n * chance->log_miss, BINOMIAL_SCALE_LOG2, &s.survival, &s.mass);
     s.step = n * chance->odds;
     s.least = u[0];
     for (int i = 1; i < draws; i++)
@@ -196,18 +196,25 @@ static inline __attribute__((always_inline)) vfloat binomial_expand(const binomi
                                                                     const int draws)
 {
     const binomial_expansion e = binomial_expansion_of(l, chance);
-    const vfloat most = l->n + 1.0F;
     vfloat sum[BINOMIAL_PARTS] = { splat(0.0F), splat(0.0F), splat(0.0F) };
 #pragma GCC unroll 12
     for (int i = 0; i < draws; i++) {
         const vfloat z = normal_quantile_i(u[i]);
-        const vfloat x = floor_f(e.centre - z * (e.slope - z * (e.bend - z * e.twist)));
-        const vfloat count = min_f(max_f(x, splat(0.0F)), most);
+        const vfloat count = floor_f(max_f(e.centre - z * (e.slope - z * (e.bend - z * e.twist)), splat(0.0F)));
         sum[i % BINOMIAL_PARTS] = sum[i % BINOMIAL_PARTS] + weight[i] * count;
         if (drawn)
             drawn[i] = choose(l->wide, count, drawn[i]);
     }
     return sum[0] + sum[1] + sum[2];
+}
+
+/* A sum of counts that were taken from the end that the law says, with weights that add up to total. The expansion may
+ * go beyond the last trial. */
+static inline vfloat binomial_from_start(const binomial_law *l, vfloat sum, float total)
+{
+    const vfloat most = (l->n + 1.0F) * total;
+    sum = min_f(sum, most);
+    return choose(l->flip, most - sum, sum);
 }
 
 /* Sum of weight[i] * X_i over draws of one law.
@@ -229,8 +236,17 @@ binomial_weighted_draws(const binomial_law *l, const binomial_chance *chance, co
     if (any(l->wide))
         sum = choose(l->wide, binomial_expand(l, chance, u, weight, drawn, many.draws), sum);
     for (int i = 0; drawn && i < many.draws; i++)
-        drawn[i] = choose(l->flip, l->n + 1.0F - drawn[i], drawn[i]);
-    return choose(l->flip, (l->n + 1.0F) * many.total - sum, sum);
+        drawn[i] = binomial_from_start(l, drawn[i], 1.0F);
+    return binomial_from_start(l, sum, many.total);
+}
+
+/* The same where all lanes are to be expanded. */
+static inline __attribute__((always_inline)) vfloat binomial_expanded_draws(const binomial_law *l,
+                                                                            const binomial_chance *chance,
+                                                                            const vint *u, const vfloat *weight,
+                                                                            const binomial_many many)
+{
+    return binomial_from_start(l, binomial_expand(l, chance, u, weight, (vfloat *)0, many.draws), many.total);
 }
 
 /* The same for uniforms as they come. trials: >= 0, up to 1e30. */

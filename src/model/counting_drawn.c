@@ -1,12 +1,12 @@
-/* The counting model's inner loop with one of the 48 realisations for all of them, drawn by its weight.
+/* The counting model's inner loop with one of the 36 realisations for all of them, drawn by its weight.
  *
- * Realisation i of grid g counts X of the N_g = 4/9 N share_g facets of its grid and adds w_i X / m to the factor, with
- * m = 4/9 N p. Drawn with the chance q_g w_i, X / (m q_g) has the mean of the whole sum, whatever the facets are. The
+ * Realisation i of grid g counts X of the N_g = N / 2 share_g facets of its grid and adds w_i X / m to the factor, with
+ * m = N p / 2. Drawn with the chance q_g w_i, X / (m q_g) has the mean of the whole sum, whatever the facets are. The
  * variance is least for q_g in proportion to the root of E X^2 = m share_g (1 + m share_g): for many lit facets that is
  * share_g, and for few a grid of hardly any share is not drawn so rarely that its one facet is a firefly. With
  * q = share it would be
  *
- *     sum share_g (1 - p) / (m share_g) = 4 (1 - p) / m < 9 / (N p),
+ *     sum share_g (1 - p) / (m share_g) = 4 (1 - p) / m < 8 / (N p),
  *
  * so it is no more than that. It is noise of the samples of a pixel, to which each brings a number of its own, and not
  * of the facets.
@@ -63,26 +63,19 @@ static vfloat draw_grid(const grid_shape *shape, vfloat expected, vfloat random,
     return rescaled(&part, taken);
 }
 
-static vfloat draw_cell(const vuint cells[GRID_CELLS], const vfloat weights[GRID_CELLS], vfloat random, vuint *cell)
+/* One of three, by weights that add up to one. What is left of the number is uniform again. */
+static vuint draw_of(const vuint of[3], const vfloat weight[3], vfloat *random)
 {
-    drawn_part part = { random, mask_none() };
-    vfloat weight = weights[GRID_CELLS - 1];
-    *cell = cells[GRID_CELLS - 1];
-    for (int i = 0; i < GRID_CELLS - 1; i++) {
-        const vmask here = falls_into(&part, weights[i]);
-        *cell = (vuint)choose_i(here, (vint)cells[i], (vint)*cell);
-        weight = choose(here, weights[i], weight);
+    drawn_part part = { *random, mask_none() };
+    vfloat taken = weight[2];
+    vuint drawn = of[2];
+    for (int i = 0; i < 2; i++) {
+        const vmask here = falls_into(&part, weight[i]);
+        drawn = choose_u(here, of[i], drawn);
+        taken = choose(here, weight[i], taken);
     }
-    return rescaled(&part, weight);
-}
-
-static vint draw_corner(const vint uniforms[4], const vfloat weights[4], vfloat random)
-{
-    drawn_part part = { random, mask_none() };
-    vint uniform = uniforms[3];
-    for (int i = 0; i < 3; i++)
-        uniform = choose_i(falls_into(&part, weights[i]), uniforms[i], uniform);
-    return uniform;
+    *random = rescaled(&part, taken);
+    return drawn;
 }
 
 /* b(N, p) / (N p) of the realisation that random in [0, 1) chooses. */
@@ -93,19 +86,18 @@ static vfloat drawn_factor(const counting_points *points, size_t i, const grid_e
     const grid_shape shape = grid_shape_of(ellipse);
     grid_vertex vertex;
     vfloat share, taken;
-    const vfloat in_grid = draw_grid(&shape, drawn * p, random, &vertex, &share, &taken);
-    vuint cells[GRID_CELLS], cell;
-    vfloat weights[GRID_CELLS];
-    grid_cells(&vertex, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
-    const vfloat in_cell = draw_cell(cells, weights, in_grid, &cell);
+    random = draw_grid(&shape, drawn * p, random, &vertex, &share, &taken);
+    /* Of cells and of corners, too, only the one that is drawn is hashed. */
+    vuint cells[GRID_CELLS], corners[ANGULAR_CORNERS];
+    vfloat weights[GRID_CELLS], blend[ANGULAR_CORNERS];
+    grid_around(&vertex, load_d(points->u + i), load_d(points->v + i), load_u(points->seed + i), cells, weights);
+    const vuint cell = hash_full(draw_of(cells, weights, &random));
 
     const angular_lattice lattice =
         angular_locate(load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i));
     const angular_place place = angular_place_of(&lattice, cell);
-    vint uniforms[4];
-    vfloat corners[4];
-    angular_corners(&place, cell, splat(1.0F / CORNER_SCALE), (vuint)splat_i((int32_t)HASH_TOP), uniforms, corners);
-    const vint uniform = draw_corner(uniforms, corners, in_cell);
+    angular_around(&place, cell, splat(1.0F / CORNER_SCALE), corners, blend);
+    const vint uniform = (vint)hash_top(draw_of(corners, blend, &random), (vuint)splat_i((int32_t)HASH_TOP));
 
     const binomial_chance chance = binomial_chance_of(p);
     const vfloat count = binomial_draw(drawn * share, &chance, uniform, angular_dither(cell));

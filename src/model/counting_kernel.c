@@ -3,26 +3,25 @@
  * Deliot and Belcour 2023 (grids, sections 4 to 6), with the probability of Kneiphof and Klein 2024. The spatial part
  * is done once a point; the part that knows the light once per light.
  *
- * The surface holds 4 grids x 3 cells; each cell has its own lattice in the plane of half vectors, and the four corners
- * around h are blended. So 48 realisations of the law add up, twelve of each grid sharing one (N, p).
+ * The surface holds 4 grids x 3 cells; each cell has its own lattice in the plane of half vectors, and the three
+ * corners around h are blended. So 36 realisations of the law add up, nine of each grid sharing one (N, p).
  */
 #include "model/counting_kernel.h"
 
 #include "math/binomial.h"
 #include "model/counting_place.h"
 
-static const binomial_many realisations = { 4 * GRID_CELLS, CORNER_SCALE };
+static const binomial_many realisations = { GRID_DRAWS, CORNER_SCALE };
 
 /* What is counted on each grid. */
 typedef struct grid_counts {
     binomial_law law[GRID_COUNT];
-    binomial_start start[GRID_COUNT];
     angular_draws draws[GRID_COUNT];
 } grid_counts;
 
-/* All that comes before the first branch, for so many grids, 1 or all, known to the compiler. */
+/* For so many grids, 1 or all, known to the compiler. */
 static inline __attribute__((always_inline)) void prepare(const angular_lattice *lattice, const int grids,
-                                                          const vuint *cell, const vfloat *cell_weight, vfloat dither,
+                                                          const vuint *cell, const vfloat *cell_weight,
                                                           const binomial_chance *chance, const vfloat *trials,
                                                           grid_counts *c)
 {
@@ -33,31 +32,79 @@ static inline __attribute__((always_inline)) void prepare(const angular_lattice 
         hash[g] = (vuint)binomial_turned(&c->law[g], splat_i((int32_t)HASH_TOP));
     }
     angular_draws_of(lattice, grids, cell, cell_weight, hash, c->draws);
+}
+
+/* What so many grids count, 1 or all. */
+static inline __attribute__((always_inline)) vfloat count(const angular_lattice *lattice, const int grids,
+                                                          const vuint *cell, const vfloat *cell_weight, vfloat dither,
+                                                          const binomial_chance *chance, const vfloat *trials)
+{
+    grid_counts c;
+    binomial_start start[GRID_COUNT];
+    vfloat sum = splat(0.0F);
+    prepare(lattice, grids, cell, cell_weight, chance, trials, &c);
+    /* All that comes before the first branch, for all grids. */
 #pragma GCC unroll 4
     for (int g = 0; g < grids; g++)
-        c->start[g] = binomial_start_of(&c->law[g], chance, c->draws[g].uniform, dither, realisations.draws);
+        start[g] = binomial_start_of(&c.law[g], chance, c.draws[g].uniform, dither, GRID_DRAWS);
+    for (int g = 0; g < grids; g++)
+        sum = sum + binomial_weighted_draws(&c.law[g], chance, &start[g], c.draws[g].uniform, c.draws[g].weight, NULL,
+                                            realisations);
+    return sum;
 }
 
-static inline vfloat count(const grid_counts *c, int g, const binomial_chance *chance)
+/* The same where every mean is large: nothing is made ready for a walk. */
+static inline __attribute__((always_inline)) vfloat count_many(const angular_lattice *lattice, const int grids,
+                                                               const vuint *cell, const vfloat *cell_weight,
+                                                               const binomial_chance *chance, const vfloat *trials)
 {
-    return binomial_weighted_draws(&c->law[g], chance, &c->start[g], c->draws[g].uniform, c->draws[g].weight, NULL,
-                                   realisations);
+    grid_counts c;
+    vfloat sum = splat(0.0F);
+    prepare(lattice, grids, cell, cell_weight, chance, trials, &c);
+    for (int g = 0; g < grids; g++)
+        sum = sum + binomial_expanded_draws(&c.law[g], chance, c.draws[g].uniform, c.draws[g].weight, realisations);
+    return sum;
 }
 
-/* b(N, p) / (N p) for one light. */
-static vfloat lit_factor(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p)
+/* Whether it is: a law's mean is at least trials min(p, 1 - p), but for rounding. */
+static inline int are_many(vfloat least_trials, vfloat p)
 {
-    const angular_lattice lattice = angular_locate(hx, hy, cap);
+    return !any(less(least_trials * min_f(p, 1.0F - p), splat(1.001F * BINOMIAL_WALK_MEAN)));
+}
+
+static inline vfloat least_share(const grid_point *grid)
+{
+    return min_f(min_f(grid->share[0], grid->share[1]), min_f(grid->share[2], grid->share[3]));
+}
+
+/* b(N, p) / (N p) for light i. many: whether every mean is large, known to the compiler. */
+static inline __attribute__((always_inline)) vfloat lit_factor(const grid_point *grid, const counting_points *points,
+                                                               size_t i, vfloat drawn, const int many)
+{
+    const vfloat p = load_f(points->p + i);
+    const angular_lattice lattice =
+        angular_locate(load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i));
     const binomial_chance chance = binomial_chance_of(p);
-    const vfloat drawn = counting_drawn_from(facets);
-    vfloat trials[GRID_COUNT], sum = splat(0.0F);
-    grid_counts counts;
+    vfloat trials[GRID_COUNT];
     for (int g = 0; g < GRID_COUNT; g++)
         trials[g] = drawn * grid->share[g];
-    prepare(&lattice, GRID_COUNT, grid->cell, grid->weight, angular_dither(grid->cell[0]), &chance, trials, &counts);
-    for (int g = 0; g < GRID_COUNT; g++)
-        sum = sum + count(&counts, g, &chance);
+    const vfloat sum =
+        many ? count_many(&lattice, GRID_COUNT, grid->cell, grid->weight, &chance, trials)
+             : count(&lattice, GRID_COUNT, grid->cell, grid->weight, angular_dither(grid->cell[0]), &chance, trials);
     return counting_factor(sum, drawn, p);
+}
+
+/* Functions of their own: together, and with what places points, they would have too few registers. */
+static __attribute__((noinline)) vfloat factor_of_few(const grid_point *grid, const counting_points *points, size_t i,
+                                                      vfloat drawn)
+{
+    return lit_factor(grid, points, i, drawn, 0);
+}
+
+static __attribute__((noinline)) vfloat factor_of_many(const grid_point *grid, const counting_points *points, size_t i,
+                                                       vfloat drawn)
+{
+    return lit_factor(grid, points, i, drawn, 1);
 }
 
 #define JOIN_(a, b) a##b
@@ -71,8 +118,9 @@ void JOIN(counting_kernel_, GLINT_LANES)(const counting_points *points, size_t s
         for (size_t k = 0, i = start; k < vectors; k++, i += GLINT_LANES) {
             counting_spot room;
             const counting_spot *const spot = counting_spot_at(points, i, k, &block, &room);
-            const vfloat f = lit_factor(&spot->grid, spot->pixel.counted, load_f(points->hx + i),
-                                        load_f(points->hy + i), load_f(points->cap + i), load_f(points->p + i));
+            const vfloat drawn = counting_drawn_from(spot->pixel.counted);
+            const int many = are_many(drawn * least_share(&spot->grid), load_f(points->p + i));
+            const vfloat f = (many ? factor_of_many : factor_of_few)(&spot->grid, points, i, drawn);
             store_f(factor + i, choose(counting_is_flat(&spot->pixel), splat(1.0F), f));
             store_f(facets + i, spot->pixel.facets);
         }
@@ -88,9 +136,9 @@ void counting_alone(const counting_points *points, size_t size, float *factor, f
         counting_take_apart(points, i, &a);
         const binomial_chance chance = binomial_chance_of(a.p);
         const vfloat trials = a.drawn * a.share;
-        grid_counts own;
-        prepare(&a.lattice, 1, a.cell, a.weight, a.dither, &chance, &trials, &own);
-        const vfloat counts = count(&own, 0, &chance);
+        const vfloat counts = are_many(trials, a.p)
+                                  ? count_many(&a.lattice, 1, a.cell, a.weight, &chance, &trials)
+                                  : count(&a.lattice, 1, a.cell, a.weight, a.dither, &chance, &trials);
         factor[i] = counting_together(&a, counting_factor(counting_across(counts), a.drawn, a.p));
         facets[i] = a.pixel.facets[0];
     }

@@ -10,9 +10,9 @@
 #include "math/hash.h"
 #include "model/counting_kernel.h"
 
-/* Blending four corners with bilinear weights v divides the variance by 1 / sum v^2, 9/4 in the mean. Drawing with 4/9
- * of the facets gives it back: over a large patch the variance is that of the facets themselves. */
-#define ANGULAR_SHARE 0.444444444F
+/* Blending three corners with barycentric weights v divides the variance by 1 / sum v^2, 2 in the mean. Drawing with
+ * half of the facets gives it back: over a large patch the variance is that of the facets themselves. */
+#define ANGULAR_SHARE 0.5F
 
 /* Below this expected count nothing is counted: a lit facet would be 3e9 times the smooth light and seen never. A
  * chance is known to 2^-47 (binomial_threshold), which on four grids is 1e-4 of this. */
@@ -132,6 +132,8 @@ static inline const counting_spot *counting_spot_at(const counting_points *point
     return room;
 }
 
+#define ANGULAR_CORNERS 3
+
 /* Cells of half vectors are at least 2^-14 wide, so that 16 bits of fraction fit. */
 #define ANGULAR_LEVELS 14
 
@@ -141,9 +143,9 @@ typedef struct angular_lattice {
     vint coarser; /* below it a uniform of 32 bits chooses the next coarser level */
 } angular_lattice;
 
-/* A facet stays lit while h is within the cap, so a cell has the cap's area. Levels are powers of two; each cell of the
- * surface takes one of the two nearest, with the chance that makes the mean area right: nothing moves when the cap
- * changes size. */
+/* A facet stays lit while h is within the cap, so a cell, a rhombus of two triangles, has the cap's area. Levels are
+ * powers of two; each cell of the surface takes one of the two nearest, with the chance that makes the mean area right:
+ * nothing moves when the cap changes size. */
 static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
 {
     const vfloat area = min_f(max_f(cap, splat(1.0F / (1 << 2 * ANGULAR_LEVELS))), splat(1.0F));
@@ -151,14 +153,16 @@ static inline angular_lattice angular_locate(vfloat hx, vfloat hy, vfloat cap)
     const vint level = (1 - exponent_of(area)) >> 1; /* 4^-level <= area < 4^(1 - level) */
     const vfloat scale = exp2_i(level);
     l.coarser = (vint)((vuint)to_int((area * scale * scale - 1.0F) * (65536.0F / 3.0F)) << 16 ^ 0x80000000U);
+    /* Skewed, so that triangles are equilateral; the determinant is 1. */
+    const vfloat x = 0.930604859F * hx - 0.537284966F * hy, y = 1.07456993F * hy;
     /* Two units of h further on: so where two levels have corners of the same numbers, h is far from each other. */
-    l.x = (vuint)to_int(hx * scale * 65536.0F) + ((vuint)to_int(scale) << 17);
-    l.y = to_int(hy * scale * 65536.0F);
+    l.x = (vuint)to_int(x * scale * 65536.0F) + ((vuint)to_int(scale) << 17);
+    l.y = to_int(y * scale * 65536.0F);
     return l;
 }
 
-/* Weights of corners are 2^32 times what they should be: so fractions of 16 bits can be taken as they are. */
-#define CORNER_SCALE 4294967296.0F
+/* Weights of corners are 2^16 times what they should be: so fractions of 16 bits can be taken as they are. */
+#define CORNER_SCALE 65536.0F
 
 /* Where h is in the lattice of one surface cell, in units of 2^-16. */
 typedef struct angular_place {
@@ -176,23 +180,30 @@ static inline angular_place angular_place_of(const angular_lattice *l, vuint cel
                             choose_i(coarse, l->y >> 1, l->y) + (vint)(cell >> 16) };
 }
 
-/* Uniforms and weights of the four corners around it. hash: the last factor of their hash, HASH_TOP. */
-static inline void angular_corners(const angular_place *p, vuint cell, vfloat cell_weight, vuint hash, vint uniform[4],
-                                   vfloat weight[4])
+/* The three corners around it: numbers, not yet hashed, and barycentric weights times cell_weight. */
+static inline void angular_around(const angular_place *p, vuint cell, vfloat cell_weight, vuint corner[ANGULAR_CORNERS],
+                                  vfloat weight[ANGULAR_CORNERS])
 {
     const vfloat fx = to_float((vint)(p->x & 0xffffU)), fy = to_float(p->y & 0xffff);
-    const vfloat gx = 65536.0F - fx;
-    const vfloat up = cell_weight * fy, down = cell_weight * (65536.0F - fy);
-    weight[0] = gx * down;
-    weight[1] = fx * down;
-    weight[2] = gx * up;
-    weight[3] = fx * up;
+    const vfloat rest = 65536.0F - fx - fy, over = min_f(rest, splat(0.0F));
+    weight[0] = cell_weight * abs_f(rest);
+    weight[1] = cell_weight * (fx + over);
+    weight[2] = cell_weight * (fy + over);
 
-    const vuint corner = (cell + (p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y;
-    uniform[0] = (vint)hash_top(corner, hash);
-    uniform[1] = (vint)hash_top(corner + HASH_X, hash);
-    uniform[2] = (vint)hash_top(corner + HASH_Y, hash);
-    uniform[3] = (vint)hash_top(corner + (HASH_X + HASH_Y), hash);
+    const vuint origin = (cell + (p->x >> 16)) * HASH_X + (vuint)(p->y >> 16) * HASH_Y;
+    corner[0] = choose_u(less(rest, splat(0.0F)), origin + (HASH_X + HASH_Y), origin);
+    corner[1] = origin + HASH_X;
+    corner[2] = origin + HASH_Y;
+}
+
+/* Their uniforms and weights. hash: the last factor of the hash, HASH_TOP. */
+static inline void angular_corners(const angular_place *p, vuint cell, vfloat cell_weight, vuint hash,
+                                   vint uniform[ANGULAR_CORNERS], vfloat weight[ANGULAR_CORNERS])
+{
+    vuint corner[ANGULAR_CORNERS];
+    angular_around(p, cell, cell_weight, corner, weight);
+    for (int i = 0; i < ANGULAR_CORNERS; i++)
+        uniform[i] = (vint)hash_top(corner[i], hash);
 }
 
 /* What binomial_start_of adds to a chance, from any cell. */
@@ -201,29 +212,27 @@ static inline vfloat angular_dither(vuint cell)
     return to_float((vint)(cell * HASH_X >> 16)) * (1.0F / 65536.0F);
 }
 
-/* The realisations of a grid, which share one (N, p): four of each cell. */
+/* The realisations of a grid, which share one (N, p): three of each cell. */
+#define GRID_DRAWS (ANGULAR_CORNERS * GRID_CELLS)
+
 typedef struct angular_draws {
-    vint uniform[4 * GRID_CELLS];
-    vfloat weight[4 * GRID_CELLS];
+    vint uniform[GRID_DRAWS];
+    vfloat weight[GRID_DRAWS];
 } angular_draws;
 
-/* Those of so many grids, 1 or all, known to the compiler. hash: for each grid, as for the corners. In steps, as
- * grid_cells. */
+/* Those of so many grids, 1 or all, known to the compiler. hash: for each grid, as for the corners. */
 static inline __attribute__((always_inline)) void angular_draws_of(const angular_lattice *l, const int grids,
                                                                    const vuint *cell, const vfloat *cell_weight,
                                                                    const vuint *hash, angular_draws *draws)
 {
-    angular_place place[GRID_COUNT * GRID_CELLS];
-#pragma GCC unroll 12
-    for (int i = 0; i < GRID_CELLS * grids; i++)
-        place[i] = angular_place_of(l, cell[i]);
 #pragma GCC unroll 4
     for (int g = 0; g < grids; g++) {
 #pragma GCC unroll 3
         for (int c = 0; c < GRID_CELLS; c++) {
             const int i = GRID_CELLS * g + c;
-            angular_corners(&place[i], cell[i], cell_weight[i], hash[g], draws[g].uniform + 4 * c,
-                            draws[g].weight + 4 * c);
+            const angular_place place = angular_place_of(l, cell[i]);
+            angular_corners(&place, cell[i], cell_weight[i], hash[g], draws[g].uniform + ANGULAR_CORNERS * c,
+                            draws[g].weight + ANGULAR_CORNERS * c);
         }
     }
 }

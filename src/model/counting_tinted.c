@@ -1,6 +1,6 @@
 /* The counting model's inner loop for facets of different colours: a count and the tints of what was counted.
  *
- * Each of the 48 realisations has a tint T of its own, hashed with its cell and corner: white, 1, in the mean and
+ * Each of the 36 realisations has a tint T of its own, hashed with its cell and corner: white, 1, in the mean and
  * independent of how many facets X are lit there. It adds X + sqrt(X) (T - 1), as X facets whose mean tint strays from
  * white by 1 / sqrt(X). With s^2 the variance of T,
  *
@@ -23,15 +23,15 @@ static vfloat all_lit(vfloat trials)
     return min_f(sqrt_f(trials), trials);
 }
 
-/* Adds weight * root * (T - 1) over twelve realisations; root: of the facets that are lit in each. */
-static void add_tints(const tint_palette *palette, const vuint *cell, const vint uniform[12], const vfloat weight[12],
-                      const vfloat root[12], vfloat sum[3])
+/* Adds weight * root * (T - 1) over the realisations of a grid; root: of the facets that are lit in each. */
+static void add_tints(const tint_palette *palette, const vuint *cell, const vint uniform[GRID_DRAWS],
+                      const vfloat weight[GRID_DRAWS], const vfloat root[GRID_DRAWS], vfloat sum[3])
 {
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < GRID_DRAWS; i++) {
         if (!any(less(splat(0.0F), root[i])))
             continue;
         /* Not of the uniform alone: where a facet is lit rarely, only few uniforms do it. */
-        const vuint hash = hash_full((vuint)uniform[i] + cell[i / 4] * HASH_Z);
+        const vuint hash = hash_full((vuint)uniform[i] + cell[i / ANGULAR_CORNERS] * HASH_Z);
         vfloat tint[3];
         tint_less_white(palette, tint_uniform_of(hash), tint);
         for (int c = 0; c < 3; c++)
@@ -39,19 +39,19 @@ static void add_tints(const tint_palette *palette, const vuint *cell, const vint
     }
 }
 
-/* The twelve realisations of one grid: what they count, and what their tints add to it. */
+/* The realisations of one grid: what they count, and what their tints add to it. */
 static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_CELLS],
                          const vfloat cell_weight[GRID_CELLS], vfloat dither, const binomial_chance *chance,
                          vfloat trials, const tint_palette *palette, vfloat tints[3])
 {
     const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
     angular_draws d;
-    vfloat count[12];
+    vfloat count[GRID_DRAWS];
     angular_draws_of(lattice, 1, cell, cell_weight, &hash, &d);
     const vfloat sum = binomial_weighted_sum(trials, chance, d.uniform, d.weight, dither, count,
-                                             (binomial_many){ 4 * GRID_CELLS, CORNER_SCALE });
+                                             (binomial_many){ GRID_DRAWS, CORNER_SCALE });
     const vmask sure = less_equal(splat(1.0F), chance->given);
-    for (int i = 0; i < 12; i++)
+    for (int i = 0; i < GRID_DRAWS; i++)
         count[i] = choose(sure, all_lit(trials), sqrt_f(count[i]));
     tints[0] = tints[1] = tints[2] = splat(0.0F);
     add_tints(palette, cell, d.uniform, d.weight, count, tints);

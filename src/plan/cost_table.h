@@ -9,7 +9,7 @@ typedef enum plan_cost {
     PLAN_COST_SMOOTH, /* an evaluation without facets */
     PLAN_COST_COUNTED,
     PLAN_COST_COUNTED_COLORS,
-    PLAN_COST_DRAWN, /* one realisation for all 48 */
+    PLAN_COST_DRAWN, /* one realisation for all 36 */
     PLAN_COST_FADED, /* nothing counted, but found out at the point */
     PLAN_COST_DICTIONARY,
     PLAN_COST_EXAMPLE,

@@ -265,11 +265,11 @@ static void decide_pair(glint_plan *p, const glint_plan_pair *pair, const limits
 
 static void decide_lookups(glint_plan *p, uint32_t material, const limits *l, double drawn)
 {
-    glint_decision d = { GLINT_EFFECT_LOOKUPS, (int32_t)material, -1, 1, "all 48", "", 0.0F, 0.0F, 0.0F };
+    glint_decision d = { GLINT_EFFECT_LOOKUPS, (int32_t)material, -1, 1, "all 36", "", 0.0F, 0.0F, 0.0F };
     const glint_plan_material *const m = &p->summary.materials[material];
     const uint32_t spp = p->summary.samples_per_pixel, tiles = p->summary.tiles_per_pixel;
     if (drawn > 0.0) {
-        snprintf(d.choice, sizeof(d.choice), "one of 48");
+        snprintf(d.choice, sizeof(d.choice), "one of 36");
         plan_decide(p, d, "%u samples a pixel level out single draws where it shows %.2g lit facets or more", spp,
                     l->draw / ((double)l->drawing * (double)l->drawing));
     } else if (is_tinted(m->base) || is_tinted(m->coat)) {

@@ -1,4 +1,4 @@
-/* The study of look-ups: all 48 realisations of a count, one of them drawn for each sample, or always the nearest. */
+/* The study of look-ups: all 36 realisations of a count, one of them drawn for each sample, or always the nearest. */
 #include "study/look_ups.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 extern const unsigned char look_ups_gnuplot[];
 
 enum { ALL, DRAWN, NEAREST, WAYS };
-static const char *const way_names[WAYS] = { "all 48", "one drawn by its weight", "the nearest" };
+static const char *const way_names[WAYS] = { "all 36", "one drawn by its weight", "the nearest" };
 
 enum { SIDE = 24, PIXELS = SIDE * SIDE, STEPS = 6, TRUTH_SIDE = 32, MOST = TRUTH_SIDE * TRUTH_SIDE };
 static const int samples_of[STEPS] = { 1, 4, 16, 64, 256, 1024 };
@@ -149,8 +149,8 @@ static void report_patch(study_run *run, const patch_error found[WAYS][STEPS])
     const drawn_price price = price_of(found);
     snprintf(why, sizeof why, "one drawn takes %.2f of their time and needs %.0f times the samples for the same error.",
              price.share, price.times);
-    snprintf(choose, sizeof choose, "Take all 48: %s", why);
-    study_choose(run, "all 48: %s", why);
+    snprintf(choose, sizeof choose, "Take all 36: %s", why);
+    study_choose(run, "all 36: %s", why);
     static const study_dial dial = { "look_ups_front.csv",
                                      "Look-ups of a pixel with thirty lit facets.",
                                      "µs a pixel (one lane)",
@@ -177,7 +177,7 @@ static void measure(study_run *run)
         return;
     for (int patch = 0; patch < PATCHES; patch++) {
         const patch_error(*const f)[STEPS] = (const patch_error(*)[STEPS])found[patch];
-        study_note(run, "%g lit facet%s: one drawn takes %.2f of the time of all 48", lit_of[patch],
+        study_note(run, "%g lit facet%s: one drawn takes %.2f of the time of all 36", lit_of[patch],
                    lit_of[patch] > 1.0 ? "s" : "", price_of(f).share);
         study_check(
             run, f[DRAWN][STEPS - 1].rms < f[DRAWN][2].rms / 3.0,
@@ -188,7 +188,7 @@ static void measure(study_run *run)
                     f[NEAREST][STEPS - 1].rms);
         study_check(
             run, f[ALL][3].rms < f[DRAWN][4].rms,
-            "%g lit facets: all 48 in 64 samples are nearer (%.3f) than one drawn in 256 (%.3f), in %.2f of the "
+            "%g lit facets: all 36 in 64 samples are nearer (%.3f) than one drawn in 256 (%.3f), in %.2f of the "
             "time",
             lit_of[patch], f[ALL][3].rms, f[DRAWN][4].rms, f[ALL][3].cost_ns / f[DRAWN][4].cost_ns);
     }
@@ -204,9 +204,9 @@ extern const study look_ups_study;
 
 const study look_ups_study = {
     .name = "look-ups",
-    .title = "Look-ups: all 48, one drawn, the nearest",
-    .truth = "all 48 at 1024 places of each pixel",
-    .choose = "all 48: one drawn saves less time than its noise costs.",
+    .title = "Look-ups: all 36, one drawn, the nearest",
+    .truth = "all 36 at 1024 places of each pixel",
+    .choose = "all 36: one drawn saves less time than its noise costs.",
     .share = 0.01,
     .run = measure,
     .figures = figures,

@@ -1,4 +1,4 @@
-/* One realisation in place of the counting model's 48: the heaviest, which nobody draws. */
+/* One realisation in place of the counting model's 36: the heaviest, which nobody draws. */
 #ifndef STUDY_LOOK_UPS_H
 #define STUDY_LOOK_UPS_H
 

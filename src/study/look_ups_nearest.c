@@ -1,4 +1,4 @@
-/* The nearest of the 48 realisations, without any blending: what a table look-up without a filter is. */
+/* The nearest of the 36 realisations, without any blending: what a table look-up without a filter is. */
 #include "study/look_ups.h"
 
 #define GLINT_LANES 1
@@ -23,13 +23,14 @@ void look_up_nearest(const counting_points *points, size_t count, float *factor,
         const int first = GRID_CELLS * heaviest(grid.share, GRID_COUNT);
         const vuint cell = grid.cell[first + heaviest(grid.weight + first, GRID_CELLS)];
 
-        vint uniform[4];
-        vfloat corners[4];
+        vint uniform[ANGULAR_CORNERS];
+        vfloat corners[ANGULAR_CORNERS];
         const angular_lattice lattice = angular_locate(points->hx[i], points->hy[i], points->cap[i]);
         const angular_place place = angular_place_of(&lattice, cell);
         angular_corners(&place, cell, 1.0F, HASH_TOP, uniform, corners);
         const binomial_chance chance = binomial_chance_of(points->p[i]);
-        const float drawn = binomial_draw(pixel.counted, &chance, uniform[heaviest(corners, 4)], angular_dither(cell));
+        const float drawn =
+            binomial_draw(pixel.counted, &chance, uniform[heaviest(corners, ANGULAR_CORNERS)], angular_dither(cell));
         factor[i] = drawn / (pixel.counted * points->p[i]);
         facets[i] = pixel.facets;
     }

@@ -60,7 +60,7 @@ static void many_samples_allow_single_draws(void **state)
     small_scene s;
     small_plan_fill(&s, 1500.0F, 1024);
     glint_plan *plan = small_plan_of(&s);
-    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "one of 48");
+    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "one of 36");
     glint_material_options cut = s.options;
     glint_plan_cut(plan, 0, &cut);
     assert_true(cut.draw_deviation > 0.0F && cut.draw_deviation <= 0.02F * 32.0F);
@@ -68,13 +68,13 @@ static void many_samples_allow_single_draws(void **state)
 
     small_plan_fill(&s, 1500.0F, 16);
     plan = small_plan_of(&s);
-    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 48");
+    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 36");
     glint_plan_destroy(plan);
 
     small_plan_fill(&s, 1500.0F, 1024);
     s.light.kind = GLINT_PLAN_LIGHT_SURROUNDINGS;
     plan = small_plan_of(&s);
-    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 48");
+    assert_string_equal(small_plan_find(plan, GLINT_EFFECT_LOOKUPS)->choice, "all 36");
     glint_plan_destroy(plan);
 }
 

@@ -11,7 +11,7 @@ static double any_lit(float trials, float p)
 {
     const binomial_chance c = binomial_chance_of(p);
     float missing, mass;
-    exp_both(floorf(trials) * c.log_miss, BINOMIAL_SCALE_LOG2, &missing, &mass);
+    exp2_both(floorf(trials) * c.log_miss, BINOMIAL_SCALE_LOG2, &missing, &mass);
     const float survival = missing + (trials - floorf(trials)) * p * mass;
     double sum = 0.0;
     for (int k = 0; k < 65536; k++)

@@ -74,8 +74,9 @@ static void over_the_pole(void)
 {
     const float h = 1e-4F, cap = 0.01F;
     const angular_lattice here = angular_locate(h, 0.0F, cap), there = angular_locate(-h, 0.0F, cap);
-    /* Units of 2^-16 of a cell, whose level is the power of two that has this area. */
-    const double cells = exp2(ceil(-0.5 * log2((double)cap)));
+    /* Units of 2^-16 of a cell, whose level is the power of two that has this area. A rhombus of area 1 has sides of
+     * the root of 2 / sqrt 3. */
+    const double cells = exp2(ceil(-0.5 * log2((double)cap))) * sqrt(0.5 * sqrt(3.0));
     naive_print(&(naive_row){ "how far h moves from 10⁻⁴ on one side of the pole to 10⁻⁴ on the other",
                               "cells of the azimuth atan2(h_y, h_x)", (double)f(atan2f(0.0F, -h) - atan2f(0.0F, h)),
                               2.0L * (wide)h, (double)(here.x - there.x) / (65536.0 * cells),

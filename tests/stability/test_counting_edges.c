@@ -281,7 +281,7 @@ static void half_vectors_cross_seams_without_a_jump(void **state)
             most = fmax(most, fabs((double)factor[i] - (double)factor[i - 1]));
     }
     /* A quarter of 2^-12 of a cell moves as much weight from one side of a cell to the other, on all twelve cells.
-     * Counts of 20 expected lie within 6 sigma of each other: 2 * 6 / sqrt(4/9 20) = 4 times the mean; and half a step
+     * Counts of 20 expected lie within 6 sigma of each other: 2 * 6 / sqrt(20 / 2) = 4 times the mean; and half a step
      * of 16 bits, or of h as a float near 1, on either side. */
     const double moved = 4.0 * (ldexp(1.0, -14) + 2.0 * ldexp(1.0, -16) + ldexp(1.0, -10));
     printf("largest step of the factor where h moves by 2^-14 of a cell: %.1e of %.1e\n", most, moved);

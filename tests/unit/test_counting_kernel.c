@@ -123,7 +123,7 @@ static void fill_alike(uint64_t *random, double n, double p)
     }
 }
 
-/* Evenly spaced draws hit each of the 48 realisations in proportion to its weight, to within one draw: their mean is
+/* Evenly spaced draws hit each of the 36 realisations in proportion to its weight, to within one draw: their mean is
  * nearer to the whole sum than that of as many random draws would be, at every kind of point, and its error has no
  * sign. */
 static void mean_over_draws_is_the_whole_sum(void **state)
@@ -164,9 +164,9 @@ static void mean_over_draws_is_the_whole_sum(void **state)
     }
 }
 
-/* A count of N_g p has the variance 9/4 (1 - p) / (N share p), over four grids 9 (1 - p) / (N p); a fraction of one
+/* A count of N_g p has the variance 2 (1 - p) / (N share p), over four grids 8 (1 - p) / (N p); a fraction of one
  * trial has 1 - f p in place of 1 - p. What the sum of all varies by, at most half of 1 / N p, is no part of it. Where
- * a single grid has all the share 9/4 of the 9 are left, less that half. */
+ * a single grid has all the share 2 of the 8 are left, less that half. */
 static void drawing_varies_as_its_bound_says(void **state)
 {
     (void)state;
@@ -187,11 +187,11 @@ static void drawing_varies_as_its_bound_says(void **state)
                 moments_add(&inverse, 1.0 / counted(i));
             }
         }
-        const double bound = 9.0 * inverse.mean / p[k % 2], ratio = moments_variance(&noise) / bound;
-        printf("N %g p %g: variance of drawing over 9 / N p: %.3f\n", n[k / 2], p[k % 2], ratio);
+        const double bound = 8.0 * inverse.mean / p[k % 2], ratio = moments_variance(&noise) / bound;
+        printf("N %g p %g: variance of drawing over 8 / N p: %.3f\n", n[k / 2], p[k % 2], ratio);
         /* 1.6e5 samples of a law whose kurtosis is about 36 / N p. */
         const double margin = 4.0 * sqrt((2.0 + 36.0 / (n[k / 2] * p[k % 2])) / noise.count);
-        assert_true(ratio < 1.0 + margin && ratio > (2.25 - 0.5) / 9.0 - margin);
+        assert_true(ratio < 1.0 + margin && ratio > (2.0 - 0.5) / 8.0 - margin);
     }
 }
 
@@ -308,7 +308,7 @@ static void hues_leave_the_mean_of_the_channels(void **state)
         counting_tinted_1(&points, COUNT, &hues, to_factor, facets);
         for (int i = 0; i < COUNT; i++) {
             const double mean = ((double)factor[0][i] + (double)factor[1][i] + (double)factor[2][i]) / 3.0;
-            /* The polynomial of sin(pi x) is good to 2e-6; sums of 48 floats to 48 half ulp. */
+            /* The polynomial of sin(pi x) is good to 2e-6; sums of 36 floats to 36 half ulp. */
             assert_true(fabs(mean - (double)plain[i]) < 6e-6 * fmax((double)plain[i], 1.0));
         }
     }
@@ -337,7 +337,7 @@ static void colors_pop_no_more_than_counts(void **state)
                 a.v[i] = k ? a.v[i] : random_between(&random, -1.0, 1.0);
                 a.density[i] = 2e7F; /* at most 9 in one grid, of which less than 8 are lit: counts are walked */
                 a.p[i] = k ? a.p[i] * 1.001F : (float)random_log_between(&random, 1e-3, 0.49);
-                expected[k][i] = 4.0 / 9.0 * 20.5 * (double)a.p[i];
+                expected[k][i] = 0.5 * 20.5 * (double)a.p[i];
             }
             float *const to_factor[3] = { factor[k][0], factor[k][1], factor[k][2] };
             counting_kernel_1(&points, COUNT, plain[k], facets);
@@ -358,8 +358,8 @@ static void colors_pop_no_more_than_counts(void **state)
 
 /* ---- mean and variance ---- */
 
-/* E factor = 1 and Var = 1/2 (1 - p) / (N' p): 9/4 from the facets that are drawn, 1/2 * 4/9 from the blending
- * (sum of squares of barycentric and bilinear weights, in the mean over the cell). N' = counted facets. */
+/* E factor = 1 and Var = 1/2 (1 - p) / (N' p): 2 from the facets that are drawn, 1/2 * 1/2 from the blending
+ * (sums of squares of barycentric weights, in the mean over the cell). N' = counted facets. */
 static void mean_is_one_and_variance_follows_from_the_blending(void **state)
 {
     (void)state;
@@ -395,8 +395,8 @@ static void mean_is_one_and_variance_follows_from_the_blending(void **state)
                    moments_variance(&m) / variance);
             assert_true(fabs(sigmas) < 4.5); /* 12 tests, significance 1e-4 */
             /* A draw from a fraction f of a facet has f p (1 - f p) instead of f p (1 - p), at most p^2 / 4 more, in
-             * each of four draws that share 4/9 N. The rest is noise: the kurtosis of a count is about 1 / N p. */
-            const double fraction = p[j] / (n[k] * 4.0 / 9.0 * (1.0 - p[j]));
+             * each of four draws that share N / 2. The rest is noise: the kurtosis of a count is about 1 / N p. */
+            const double fraction = p[j] / (n[k] * 0.5 * (1.0 - p[j]));
             const double noise = 4.0 * sqrt((2.0 + 9.0 / (n[k] * p[j])) / m.count);
             assert_true(fabs(moments_variance(&m) / variance - 1.0) < 0.01 + fraction + noise);
         }
@@ -491,6 +491,61 @@ static void origin_is_a_place_like_any_other(void **state)
     assert_true(fabs(moments_variance(&m) / (0.5 * 0.99 / 10.005) - 1.0) < 0.01 + 0.01);
 }
 
+/* Weight of the corner at the origin of a lattice of equilateral triangles, whose cells have this area. */
+static double angular_hat(double hx, double hy, double area)
+{
+    const double side = sqrt(area * 2.0 / sqrt(3.0)), y = hy / (0.5 * sqrt(3.0) * side), x = hx / side - 0.5 * y;
+    return fmax(0.0, 1.0 - fmax(fabs(x), fmax(fabs(y), fabs(x + y))));
+}
+
+/* Sum of v(h) v(h + d) over the corners, in the mean over h: what stays of the variance. */
+static double angular_correlation(double dx, double dy, double area)
+{
+    enum { STEPS = 400 };
+    const double reach = 1.3 * sqrt(area);
+    double sum = 0.0;
+    for (int i = 0; i < STEPS; i++)
+        for (int k = 0; k < STEPS; k++) {
+            const double x = reach * (2 * i + 1 - STEPS) / STEPS, y = reach * (2 * k + 1 - STEPS) / STEPS;
+            sum += angular_hat(x, y, area) * angular_hat(x + dx, y + dy, area);
+        }
+    return sum * 4.0 * reach * reach / (STEPS * STEPS) / area;
+}
+
+/* As h turns, lit facets go at the same pace in all directions: that of equilateral triangles. */
+static void half_vectors_nearby_share_facets_in_every_direction(void **state)
+{
+    (void)state;
+    static float here[COUNT], there[COUNT], facets[COUNT];
+    const double cap = 1.0 / 4096.0, step = 0.4 * sqrt(cap), whole = angular_correlation(0.0, 0.0, cap);
+    assert_true(fabs(whole - 0.5) < 1e-3); /* sum v^2 */
+    uint64_t random = 33;
+    for (int direction = 0; direction < 6; direction++) {
+        const double turn = direction * 3.14159265358979 / 6.0, dx = step * cos(turn), dy = step * sin(turn);
+        moments value = { 0 }, change = { 0 };
+        for (int round = 0; round < 12; round++) {
+            fill_alike(&random, 1e6, 0.05);
+            for (int side = 0; side < 2; side++) {
+                for (int i = 0; i < COUNT; i++) {
+                    a.cap[i] = (float)cap;
+                    a.hx[i] = side ? a.hx[i] + (float)dx : a.hx[i];
+                    a.hy[i] = side ? a.hy[i] + (float)dy : a.hy[i];
+                }
+                counting_widest(16).kernel(&points, COUNT, side ? there : here, facets);
+            }
+            for (int i = 0; i < COUNT; i++) {
+                moments_add(&value, (double)here[i]);
+                moments_add(&change, (double)there[i] - (double)here[i]);
+            }
+        }
+        const double expected = 2.0 * (1.0 - angular_correlation(dx, dy, cap) / whole);
+        const double ratio = moments_variance(&change) / moments_variance(&value);
+        printf("turned by %d degrees: change over variance %.4f, expected %.4f\n", 30 * direction, ratio, expected);
+        /* Variances of 5e4 nearly normal values, which vary in width with the weights: kurtosis below 4. */
+        assert_true(fabs(ratio / expected - 1.0) < 4.5 * sqrt(2.0 * 3.0 / value.count));
+    }
+}
+
 /* Levels of the angular lattice change where the cap's area passes a power of four. */
 static void nothing_moves_when_the_cap_passes_a_level(void **state)
 {
@@ -533,6 +588,7 @@ int main(void)
         cmocka_unit_test(chroma_varies_as_the_tints_of_lit_facets),
         cmocka_unit_test(facet_larger_than_the_pixel_is_lit_or_not),
         cmocka_unit_test(origin_is_a_place_like_any_other),
+        cmocka_unit_test(half_vectors_nearby_share_facets_in_every_direction),
         cmocka_unit_test(nothing_moves_when_the_cap_passes_a_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
