@@ -361,7 +361,7 @@ void trace_closest_many(const trace_scene *t, const trace_ray *const *rays, int 
     for (int first = 0; first < count; first += TRACE_PACKET) {
         const int size = count - first < TRACE_PACKET ? count - first : TRACE_PACKET;
         const trace_ray *packet[TRACE_PACKET] = { NULL };
-        trace_hit found[TRACE_PACKET];
+        trace_hit found[TRACE_PACKET] = { { 0 } };
         for (int i = 0; i < size; ++i)
             packet[i] = rays[first + i];
         const uint32_t any = trace_closest_packet(t, packet, blending, found);
