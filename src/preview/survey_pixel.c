@@ -68,7 +68,8 @@ static radiance look_at_light(const world *w, int index, looking how, const vert
     alone.lights = &own;
     alone.light_count = 1;
     alone.cap_error = how.as_cap ? (double)INFINITY : 0.0;
-    add_direct_light(&alone, &v->hit, &v->point, random, DIM_SURVEY, all, &sum, facets, counts);
+    const direct_point point = { v, random, all, &sum, facets, 0 };
+    add_direct_light(&alone, &point, DIM_SURVEY, counts);
     return sum;
 }
 
