@@ -16,7 +16,7 @@ plot [60:1e5] [1e-8:100] \
     'integrals_front.csv' every ::1 using 2:3:(low($3, $4)):($3 + $4) with yerrorbars linetype 1 title 'median', \
     'integrals_worst_front.csv' every ::1 using 2:3:(low($3, $4)):($3 + $4) with yerrorbars linetype 2 title '95 % of the lights', \
     for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(else(stringcolumn(1))) \
-        with labels left offset 0.8,-0.5 font ',9' notitle, \
+        with labels left offset 0.8,-0.8 font ',9' notitle, \
     for [file in 'integrals_front.csv integrals_worst_front.csv'] file every ::1 using 2:3:(near(stringcolumn(1))) \
         with labels right offset -0.8,-0.5 font ',9' notitle, \
     'integrals_worst_front.csv' every ::1 using 2:3:(few(stringcolumn(1))) \

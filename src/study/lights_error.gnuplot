@@ -38,7 +38,7 @@ set logscale y
 set xlabel 'error over the exact integral'
 set ylabel 'share of lights that are further off'
 set format y '%g'
-set key inside top right Right noreverse vertical
+set key inside bottom left Left reverse vertical
 set lmargin at screen 0.78
 set rmargin at screen 0.98
 array count[2] = [int(system("grep -c '^GGX' lights_error.csv")), int(system("grep -c '^Beckmann' lights_error.csv"))]

@@ -13,7 +13,7 @@ sizes = '4 64 1024'
 set ytics add ('none' 1e-3)
 plot [60:1e6] [1e-3:3] for [k = 1:3] of(word(sizes, k)) using 3:(error($9)):(low($9, $10)):($9 + $10) \
         with yerrorbars linetype k title word(sizes, k).' facets a pixel', \
-    '< grep ",64," models.csv | grep -v explicit' using 3:(error($9) * 1.25):1 with labels left offset 2.6,0.9 font ',9' notitle, \
+    '< grep ",64," models.csv | grep -v explicit' using 3:(error($9) * 1.25):1 with labels left offset 2.6,0.3 font ',9' notitle, \
     '< grep "^example,4," models.csv' using 3:(error($9) * 1.25):1 with labels right offset -1.2,0 font ',9' notitle, \
     for [k = 1:3] sprintf('< grep "explicit,%s," models.csv', word(sizes, k)) using 3:(1e-3) with points linetype k pointsize 1.6 notitle, \
     '< grep "explicit" models.csv' using 3:(1.5e-3):1 with labels font ',9' notitle

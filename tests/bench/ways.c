@@ -57,7 +57,8 @@ static void run_look_ups(const way *w, long times)
     static uint32_t seed[SAMPLES], draw[SAMPLES];
     uint64_t random = 81;
     for (int i = 0; i < SAMPLES; i++) {
-        u[i] = (i / 64 + random_uniform(&random)) * 1e-3;
+        const int pixel = i / 64;
+        u[i] = (pixel + random_uniform(&random)) * 1e-3;
         v[i] = random_uniform(&random) * 1e-3;
         step[i] = 1e-3F / 8.0F;
         density[i] = 1500e6F;
