@@ -80,7 +80,8 @@ static bool render_scene(scene *s, render_record *record, const atomic_bool *can
     record->report = r;
     bool done = render_options(record->values, s, &light, &options, r);
     options.progress = watch_progress;
-    options.planned = take_plan;
+    if (record->values->json || !isnan(record->values->accuracy))
+        options.planned = take_plan; /* else what it says of noise is not measured */
     options.user = &watcher;
     options.cancel = cancel;
     done = done && preview_render(s, &options, picture, &record->statistics, r);

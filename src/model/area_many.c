@@ -45,28 +45,18 @@ static void gather(const model_query *q, size_t i, area_crowd *c)
     }
 }
 
-static int corner_count(const model_query *q)
-{
-    const glint_area_light *l = q->area_light;
-    const int is_one = l->kind == GLINT_AREA_POLYGON && l->corner_count >= 3U && l->corner_count <= GLINT_MAX_CORNERS;
-    return is_one ? (int)l->corner_count : 0;
-}
-
-static int most_corners(const model_query *q, size_t count)
-{
-    int most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = corner_count(&q[i]) > most ? corner_count(&q[i]) : most;
-    return most + (most & 1);
-}
-
+/* Of what is a polygon, however few of them are. */
 static void gather_corners(const model_query *q, size_t i, area_crowd *c)
 {
-    const int count = corner_count(q);
+    const int is_polygon = q->area_light->kind == GLINT_AREA_POLYGON;
+    const uint32_t asked = is_polygon ? q->area_light->corner_count : 0U;
+    const int count = asked >= 3U && asked <= GLINT_MAX_CORNERS ? (int)asked : 0;
     c->corner_count[i] = count;
-    for (int k = 0; k < c->most_corners; k++)
+    for (int k = 0; k < GLINT_MAX_CORNERS; k++)
         for (int axis = 0; axis < 3; axis++)
             c->corner[k][axis][i] = count > 0 ? q->area_light->corners[k < count ? k : 0][axis] : 0.0F;
+    const int even = count + (count & 1);
+    c->most_corners = even > c->most_corners ? even : c->most_corners;
 }
 
 static area_value take(const lobe_lit *lit, size_t i, int counts)
@@ -117,14 +107,17 @@ void area_eval_many(const model_query *q, size_t count, int counts, lobe_lit *li
     float left[LOBE_MOST];
     /* What is left of a vector repeats the last. */
     const size_t padded = (count + MOST_LANES - 1) / MOST_LANES * MOST_LANES;
-    /* Squares of polygons are for the fast integral. */
-    crowd.most_corners = is_exact ? 0 : most_corners(q, count);
-    for (size_t i = 0; i < padded; i++) {
-        const model_query *const one = &q[i < count ? i : count - 1];
-        gather(one, i, &crowd);
-        if (crowd.most_corners > 0)
-            gather_corners(one, i, &crowd);
+    int has_polygons = 0;
+    for (size_t i = 0; i < count; i++) {
+        gather(&q[i], i, &crowd);
+        has_polygons |= q[i].area_light->kind == GLINT_AREA_POLYGON;
     }
+    for (size_t i = count; i < padded; i++)
+        gather(&q[count - 1], i, &crowd);
+    crowd.most_corners = 0;
+    /* Squares of polygons are for the fast integral. */
+    for (size_t i = 0; has_polygons && !is_exact && i < padded; i++)
+        gather_corners(&q[i < count ? i : count - 1], i, &crowd);
     area_kernel_widest(MOST_LANES)(o, &crowd, padded, counts, lit, left);
     for (size_t i = 0; i < count; i++)
         if (left[i] > 0.0F)

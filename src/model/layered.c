@@ -25,11 +25,11 @@ typedef struct layered {
 /* Both layers at one point. */
 typedef struct point {
     model_query base, coat;
-    vec3 x, y, z;              /* frame of the coat, in that of the base */
-    float weight, slant;       /* of the coat */
-    float out[3], straight[3]; /* t(wo), t(n) */
-    int base_seen, coat_seen;  /* from wo */
-    int base_lit, coat_lit;    /* from wi too */
+    vec3 x, y, z;             /* frame of the coat, in that of the base */
+    float weight, slant;      /* of the coat */
+    float out[3];             /* t(wo) */
+    int base_seen, coat_seen; /* from wo */
+    int base_lit, coat_lit;   /* from wi too */
 } point;
 
 /* 1 - w (1 - T): what is left of the base. */
@@ -38,11 +38,12 @@ static void find_kept(const point *p, float kept[3])
     kept[0] = kept[1] = kept[2] = 1.0F;
     if (!(p->weight > 0.0F))
         return;
-    float in[3];
+    float in[3], straight[3]; /* t(wi), t(n) */
     coat_transmit(&p->coat, p->slant, p->coat.wi.z, in);
+    coat_transmit(&p->coat, p->slant, 1.0F, straight);
     for (int c = 0; c < 3; c++) {
         const float least = in[c] < p->out[c] ? in[c] : p->out[c];
-        const float both = p->straight[c] > 0.0F ? in[c] * p->out[c] / p->straight[c] : 0.0F;
+        const float both = straight[c] > 0.0F ? in[c] * p->out[c] / straight[c] : 0.0F;
         kept[c] = 1.0F - p->weight * (1.0F - (both < least ? both : least));
     }
 }
@@ -89,7 +90,6 @@ static void find_point(const model_query *q, point *p)
         return;
     p->slant = coat_slant(material->coat, l->slant, &coat->surface);
     coat_transmit(&p->coat, p->slant, p->coat.wo.z, p->out);
-    coat_transmit(&p->coat, p->slant, 1.0F, p->straight);
 }
 
 static void light_up(point *p, vec3 wi)

@@ -45,15 +45,32 @@ static float facets_bound(const model_query *coat, int channel, float slant, flo
     return coat->material->options.coverage * (slanted > head_on ? slanted : head_on);
 }
 
+static float transmit_channel(const model_query *coat, int c, float slant, float cosine)
+{
+    const float diffuse = coat->surface->diffuse[c], past = 1.0F - facets_bound(coat, c, slant, cosine);
+    if (!(diffuse > 0.0F))
+        return clamp01(past);
+    const float entered = 1.0F - coat->material->options.coverage * lobe_facet_reflectance(coat, c, cosine);
+    return clamp01(past - diffuse * entered);
+}
+
+/* Whether all channels are the same, as those of a lacquer are. */
+static int is_gray(const model_query *coat)
+{
+    const glint_surface *s = coat->surface;
+    int same = coat->material->options.fresnel != GLINT_FRESNEL_CONDUCTOR;
+    for (int c = 1; c < 3; c++)
+        same = same && s->f0[c] == s->f0[0] && s->f90[c] == s->f90[0] && s->diffuse[c] == s->diffuse[0];
+    return same;
+}
+
 /* t: what neither the facets nor what is diffuse in the coat keep from the base. */
 void coat_transmit(const model_query *coat, float slant, float cosine, float t[3])
 {
-    const float clamped = clamp01(cosine), coverage = coat->material->options.coverage;
-    for (int c = 0; c < 3; c++) {
-        const float diffuse = coat->surface->diffuse[c];
-        const float entered = 1.0F - coverage * lobe_facet_reflectance(coat, c, clamped);
-        t[c] = clamp01(1.0F - facets_bound(coat, c, slant, clamped) - diffuse * entered);
-    }
+    const float clamped = clamp01(cosine);
+    const int gray = is_gray(coat);
+    for (int c = 0; c < 3; c++)
+        t[c] = c > 0 && gray ? t[0] : transmit_channel(coat, c, slant, clamped);
 }
 
 /* What the facets of a material reflect to wo in one channel: the mean weight of its own samples. */

@@ -178,15 +178,14 @@ bool area_shadow_begin(const hit *h, const shade_point *p, const sampler *random
     double u[2], draw[2];
     const bool is_one = !light_is_area(l) && s->view.sine < ONE_RAY;
     const uint32_t bits = sampler_bits(random, dimension + PARTNER);
-    sampler_pair(random, dimension, u);
-    for (uint32_t i = 0; i < (is_one ? 1 : AREA_MOST_RAYS); ++i)
-        rays[i] = (trace_ray){ .origin = hit_leave(h, h->shadow_origin),
-                               .random = is_one || !thorough ? bits : hash_combine(bits, i) };
     if (is_one) {
-        light_pick(l, &s->view, rays[0].origin, u, &rays[0].direction, &rays[0].far);
+        rays[0].random = bits;
         s->ray_count = 1;
         return true;
     }
+    sampler_pair(random, dimension, u);
+    for (uint32_t i = 0; i < AREA_MOST_RAYS; ++i)
+        rays[i] = (trace_ray){ .origin = rays[0].origin, .random = thorough ? hash_combine(bits, i) : bits };
     s->is_sharp = has_sharp_layer(p);
     spread(s, u, rays);
     const int count = AREA_SPREAD + (s->is_sharp ? reflect(s, p, bits, &rays[AREA_SPREAD]) : 0);

@@ -22,8 +22,8 @@ typedef struct area_shadow {
 
 /* The light is evaluated whole, without noise; shadow rays find the share of its effect that something hides. light and
  * view of *s are set. dimension: of the light, see add_direct_light. thorough: four to seven rays, for what the camera
- * sees; else one, for what only bounces see. rays: room for AREA_MOST_RAYS; they begin at the same place. False: the
- * light lies below the horizon. */
+ * sees; else one, for what only bounces see. rays: room for AREA_MOST_RAYS; they begin where the first does, which
+ * leads to a place of the light where that is round. False: the light lies below the horizon. */
 bool area_shadow_begin(const hit *h, const shade_point *p, const sampler *random, uint32_t dimension, bool thorough,
                        area_shadow *s, trace_ray *rays, shade_area *area);
 

@@ -6,7 +6,7 @@
 /* A packet has 4 x 4 pixels. */
 #define PACKET_SIDE 4
 
-void block_begin(block *b, int x, int y, const block_window *window)
+void block_begin(block *b, int x, int y, const block_window *window, uint32_t seed)
 {
     const int across = BLOCK_SIDE / PACKET_SIDE;
     for (int i = 0; i < BLOCK_PIXELS; ++i) {
@@ -15,6 +15,9 @@ void block_begin(block *b, int x, int y, const block_window *window)
         b->y[i] = y + packet / across * PACKET_SIDE + entry / PACKET_SIDE;
         b->is_seen[i] =
             b->x[i] >= window->left && b->x[i] < window->right && b->y[i] >= window->top && b->y[i] < window->bottom;
+        b->camera.x[i] = b->x[i];
+        b->camera.y[i] = b->y[i];
+        b->camera.pixel[i] = sampler_make(b->x[i], b->y[i], 0U, seed).pixel;
     }
 }
 
@@ -23,7 +26,7 @@ static bool is_in_picture(const world *w, const block *b, int entry)
     return b->x[entry] < w->camera->width && b->y[entry] < w->camera->height;
 }
 
-/* What the ray of a pixel has met. */
+/* What the ray of a pixel has met; look_closer comes back to that. */
 static void look(const world *w, block *b, int entry, bool met, const trace_hit *found, ray_counts *counts)
 {
     camera_sample *const s = &b->samples[entry];
@@ -33,29 +36,34 @@ static void look(const world *w, block *b, int entry, bool met, const trace_hit 
         return;
     }
     s->vertex.found = *found;
-    camera_sample_look(w, s);
+    b->scratch.tasks[b->point_count] = path_hit(&s->vertex);
     b->points[b->point_count++] =
         (direct_point){ &s->vertex, &s->random, camera_sample_throughput, &s->light, &s->facets, entry };
+}
+
+static void look_closer(const world *w, block *b)
+{
+    hit_resolve_many(w->geometry, w->kernels, b->scratch.tasks, b->point_count);
+    for (int i = 0; i < b->point_count; ++i)
+        camera_sample_look(w, &b->samples[b->points[i].entry]);
 }
 
 static void look_first(const world *w, block *b, uint32_t index, ray_counts *counts)
 {
     b->point_count = 0;
+    camera_sample_leave_many(w, index, &b->camera, b->samples);
     for (int first = 0; first < BLOCK_PIXELS; first += TRACE_PACKET) {
         const trace_ray *rays[TRACE_PACKET] = { NULL };
         trace_hit hits[TRACE_PACKET];
-        for (int i = 0; i < TRACE_PACKET; ++i) {
-            camera_sample *const s = &b->samples[first + i];
-            if (!is_in_picture(w, b, first + i))
-                continue;
-            camera_sample_leave(w, b->x[first + i], b->y[first + i], index, s);
-            rays[i] = &s->vertex.ray;
-        }
+        for (int i = 0; i < TRACE_PACKET; ++i)
+            if (is_in_picture(w, b, first + i))
+                rays[i] = &b->samples[first + i].vertex.ray;
         const uint32_t met = trace_closest_packet(w->trace, rays, TRACE_BLEND_SOLID, hits);
         for (int i = 0; i < TRACE_PACKET; ++i)
             if (rays[i] != NULL)
                 look(w, b, first + i, met >> i & 1U, &hits[i], counts);
     }
+    look_closer(w, b);
 }
 
 static void add_light(const world *w, block *b, ray_counts *counts)
@@ -84,6 +92,7 @@ static void look_behind(const world *w, block *b, ray_counts *counts)
     b->point_count = 0;
     for (int i = 0; i < count; ++i)
         look(w, b, entries[i], s->met[i], &s->hits[i], counts);
+    look_closer(w, b);
 }
 
 void block_integrate(const world *w, block *b, uint32_t index, bool described, ray_counts *counts)

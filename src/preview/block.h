@@ -15,6 +15,7 @@ typedef struct block {
     int x[BLOCK_PIXELS], y[BLOCK_PIXELS]; /* pixels of the picture */
     bool is_seen[BLOCK_PIXELS];           /* it is in the window */
     pixel_sample seen[BLOCK_PIXELS];      /* what comes of it, where it is in the picture */
+    camera_batch camera;
     camera_sample samples[BLOCK_PIXELS];
     /* Those that look at a surface, and what light is added to it. */
     int point_count;
@@ -22,8 +23,8 @@ typedef struct block {
     path_scratch scratch;
 } block;
 
-/* The block whose first pixel is (x, y), multiples of BLOCK_SIDE. */
-void block_begin(block *b, int x, int y, const block_window *window);
+/* The block whose first pixel is (x, y), multiples of BLOCK_SIDE; seed: of the render. */
+void block_begin(block *b, int x, int y, const block_window *window, uint32_t seed);
 
 /* integrate, bit for bit, for sample number index of the block's pixels. */
 void block_integrate(const world *w, block *b, uint32_t index, bool described, ray_counts *counts);

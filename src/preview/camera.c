@@ -1,5 +1,7 @@
 /* glTF cameras look along -z with y up; rays start at the near plane's side of the lens and carry pixel steps. */
-#include "preview/camera.h"
+#define WIDE_LANES 1
+#include "preview/camera_batch.h"
+#include "preview/camera_lanes.h"
 
 /* How far a picture of this shape opens in the direction across, relative to what the camera asks for. */
 static void fit(camera *c, double camera_aspect)
@@ -62,31 +64,32 @@ bool camera_make(const scene_camera *from, int width, int height, camera *out, r
     return true;
 }
 
-/* A step of the direction before it is made unit, to the step of the unit direction. */
-static vec3 unit_step(vec3 direction, vec3 step, double length)
+static vec3 vector_of(wide3 a)
 {
-    return v3_scale(v3_reject(step, direction), 1.0 / length);
+    return v3(a.x, a.y, a.z);
 }
 
 void camera_ray(const camera *c, double x, double y, trace_ray *ray, differential *d)
 {
-    const vec3 zero = v3(0.0, 0.0, 0.0);
-    const double across = (2.0 * x / (double)c->width - 1.0) * c->half_width + c->middle_x;
-    const double upwards = (1.0 - 2.0 * y / (double)c->height) * c->half_height + c->middle_y;
-    const vec3 offset = v3_mad(v3_scale(c->right, across), c->up, upwards);
-    const vec3 step_x = v3_scale(c->right, 2.0 * c->half_width / (double)c->width);
-    const vec3 step_y = v3_scale(c->up, -2.0 * c->half_height / (double)c->height);
+    wide_ray r;
+    camera_ray_wide(c, x, y, &r);
+    *ray = (trace_ray){ vector_of(r.origin), vector_of(r.direction), r.near, r.far, 0U };
+    *d = (differential){ vector_of(r.origin_step[0]), vector_of(r.origin_step[1]), vector_of(r.direction_step[0]),
+                         vector_of(r.direction_step[1]) };
+}
 
-    if (c->projection == SCENE_ORTHOGRAPHIC) {
-        *ray = (trace_ray){ v3_add(c->origin, offset), c->forward, c->near, c->far, 0U };
-        *d = (differential){ step_x, step_y, zero, zero };
-        return;
-    }
-    const vec3 towards = v3_add(c->forward, offset);
-    const double length = v3_length(towards);
-    const vec3 direction = v3_scale(towards, 1.0 / length);
-    *ray = (trace_ray){ c->origin, direction, c->near * length, c->far * length, 0U };
-    *d = (differential){ zero, zero, unit_step(direction, step_x, length), unit_step(direction, step_y, length) };
+static vec3 take(const double from[3][CAMERA_BATCH], int i)
+{
+    return v3(from[0][i], from[1][i], from[2][i]);
+}
+
+void camera_batch_take(const camera_batch *b, int i, trace_ray *ray, differential *d)
+{
+    *ray = (trace_ray){ take(b->origin, i), take(b->direction, i), b->near[i], b->far[i], 0U };
+    d->origin_dx = take(b->origin_step[0], i);
+    d->origin_dy = take(b->origin_step[1], i);
+    d->direction_dx = take(b->direction_step[0], i);
+    d->direction_dy = take(b->direction_step[1], i);
 }
 
 double camera_depth(const camera *c, vec3 position)

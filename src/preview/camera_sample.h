@@ -2,6 +2,7 @@
 #ifndef PREVIEW_CAMERA_SAMPLE_H
 #define PREVIEW_CAMERA_SAMPLE_H
 
+#include "preview/camera_batch.h"
 #include "preview/path.h"
 
 typedef struct camera_sample {
@@ -19,7 +20,9 @@ extern const float camera_sample_throughput[3];
 
 /* Sample number index of the pixel (x, y): its ray, which is to be traced with TRACE_BLEND_SOLID. */
 void camera_sample_leave(const world *w, int x, int y, uint32_t index, camera_sample *s);
-/* The ray has met vertex.found: what that emits. */
+/* The same for sample number index of a block of pixels; pixels: hashes of a sampler's own. */
+void camera_sample_leave_many(const world *w, uint32_t index, camera_batch *b, camera_sample samples[CAMERA_BATCH]);
+/* The ray has met vertex.hit: what that emits. */
 void camera_sample_look(const world *w, camera_sample *s);
 /* It has met nothing, and the sample ends. */
 void camera_sample_miss(const world *w, const camera_sample *s, pixel_sample *out);

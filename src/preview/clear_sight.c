@@ -134,18 +134,20 @@ static void look_across(const scene_mesh *m, uint32_t triangle, double slack, bo
     }
 }
 
-/* What a mesh that is alone hides of its own. */
+/* What a mesh that is alone hides of its own; one that would take more than the work that is left is not begun. */
 static clear_sight sight_of_mesh(proof *p, const scene_mesh *m)
 {
     double largest = 0.0;
     bool below = false;
+    if ((long long)m->triangle_count * m->vertex_count > p->work)
+        return CLEAR_UNKNOWN;
     for (uint32_t i = 0; i < 3U * m->vertex_count; ++i)
         largest = larger_of(fabs((double)m->position[i]), largest);
     for (uint32_t t = 0; t < m->triangle_count; ++t) {
         bool above = false;
         p->work -= m->vertex_count;
         look_across(m, t, largest * SLACK, &above, &below);
-        if (above || p->work < 0)
+        if (above)
             return CLEAR_UNKNOWN;
     }
     return below ? CLEAR_IN_FRONT : CLEAR_BOTH_SIDES;
@@ -230,14 +232,22 @@ static bool sees_all_of(proof *p, int instance, const light *l)
     return sees;
 }
 
-/* The least of what the parts of a material see. */
-static void prove_part(proof *p, int instance, clear_sight own, const light *lights, int light_count, uint8_t *row)
+/* The least of what the parts of a material see. own: of the meshes, where that has been looked at: only where nothing
+ * else is in the way. */
+static void prove_part(proof *p, int instance, int *own, const light *lights, int light_count, uint8_t *row)
 {
-    for (int l = 0; l < light_count; ++l)
-        if (row[l] != CLEAR_UNKNOWN) {
-            const clear_sight sight = sees_all_of(p, instance, &lights[l]) ? own : CLEAR_UNKNOWN;
-            row[l] = sight < row[l] ? (uint8_t)sight : row[l];
+    int *const of_mesh = &own[p->geometry->scene->instances[instance].mesh];
+    for (int l = 0; l < light_count; ++l) {
+        if (row[l] == CLEAR_UNKNOWN)
+            continue;
+        if (!sees_all_of(p, instance, &lights[l])) {
+            row[l] = CLEAR_UNKNOWN;
+            continue;
         }
+        if (*of_mesh < 0)
+            *of_mesh = (int)sight_of_mesh(p, mesh_of(p->geometry, instance));
+        row[l] = *of_mesh < row[l] ? (uint8_t)*of_mesh : row[l];
+    }
 }
 
 static proof begin(const geometry *g)
@@ -255,17 +265,16 @@ bool clear_sight_find(const geometry *g, const light *lights, int light_count, u
 {
     const scene *const s = g->scene;
     proof p = begin(g);
-    clear_sight *const own = calloc((size_t)s->mesh_count + 1U, sizeof *own);
+    int *const own = calloc((size_t)s->mesh_count + 1U, sizeof *own);
     if (own == NULL)
         return report_error(r, "no memory for what %d meshes hide of themselves", s->mesh_count);
     for (int i = 0; i < s->mesh_count; ++i)
-        own[i] = sight_of_mesh(&p, &s->meshes[i]);
+        own[i] = -1;
     for (int i = 0; i < s->material_count * light_count; ++i)
         table[i] = CLEAR_BOTH_SIDES;
     for (int i = 0; i < s->instance_count; ++i)
         if (is_there(g, i))
-            prove_part(&p, i, own[s->instances[i].mesh], lights, light_count,
-                       &table[(size_t)mesh_of(g, i)->material * (size_t)light_count]);
+            prove_part(&p, i, own, lights, light_count, &table[(size_t)mesh_of(g, i)->material * (size_t)light_count]);
     free(own);
     return true;
 }

@@ -1,27 +1,10 @@
 /* Transfer and reflection of ray differentials: H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999. */
 #include "preview/differential.h"
 
-/* Below this cosine the plane is edge-on at any pixel size; it keeps steps finite. Taste. */
-#define SMALLEST_COSINE 1e-6
-
 differential differential_scale(const differential *d, double s)
 {
     return (differential){ v3_scale(d->origin_dx, s), v3_scale(d->origin_dy, s), v3_scale(d->direction_dx, s),
                            v3_scale(d->direction_dy, s) };
-}
-
-static vec3 transfer_step(vec3 origin_step, vec3 direction_step, vec3 direction, double distance, vec3 normal)
-{
-    const vec3 step = v3_mad(origin_step, direction_step, distance);
-    const double cosine = v3_dot(direction, normal);
-    const double safe = copysign(larger_of(fabs(cosine), SMALLEST_COSINE), cosine);
-    return v3_mad(step, direction, -v3_dot(step, normal) / safe);
-}
-
-surface_step differential_transfer(const differential *d, vec3 direction, double distance, vec3 normal)
-{
-    return (surface_step){ transfer_step(d->origin_dx, d->direction_dx, direction, distance, normal),
-                           transfer_step(d->origin_dy, d->direction_dy, direction, distance, normal) };
 }
 
 /* d/dx of D - 2 (D.N) N */

@@ -17,14 +17,10 @@ typedef struct surface_step {
 /* All parts times s: a sample that stands for 1/n of a pixel has s = 1/sqrt(n). */
 differential differential_scale(const differential *d, double s);
 
-/* How the point where the ray meets the plane with the unit normal moves, metres per pixel; it stays in the plane.
- * Igehy, Eqs. 10 and 11. A plane seen edge-on gives long but finite steps. */
-surface_step differential_transfer(const differential *d, vec3 direction, double distance, vec3 normal);
-
 /* The differential of the ray reflected about the unit normal: Igehy, Eqs. 14 to 16.
  *
  * direction    of the incoming ray, towards the surface
- * point        how the origin of the reflected ray moves (differential_transfer)
+ * point        how the origin of the reflected ray moves
  * normal_step  how the unit normal turns along the same steps */
 differential differential_reflect(const differential *d, vec3 direction, vec3 normal, const surface_step *point,
                                   const surface_step *normal_step);

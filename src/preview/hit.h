@@ -3,17 +3,17 @@
 #define PREVIEW_HIT_H
 
 #include "preview/differential.h"
+#include "preview/kernels.h"
 #include "preview/trace.h"
 
 typedef struct hit {
     const scene_mesh *mesh;
     const scene_instance *instance;
     const geometry_instance *placed;
-    triangle_corners corners;
-    double weights[2]; /* of the corners 1 and 2 */
+    uint32_t corner[3]; /* the triangle's vertices */
+    double weights[2];  /* of the corners 1 and 2 */
     double distance;
     vec3 position, position_object;
-    vec3 edge[2];                  /* world: from corner 0 to corners 1 and 2 */
     bool front;                    /* seen from its front: counter-clockwise in the object's space */
     vec3 geometric_normal, normal; /* world, unit, on the viewer's side */
     vec3 tangent;                  /* world, unit, perpendicular to normal; along u where the mesh has tangents */
@@ -31,10 +31,18 @@ typedef struct hit_step {
 /* Only what needs no view of it: the triangle and the place in it. */
 void hit_locate(const geometry *g, const trace_hit *found, hit *out);
 
-void hit_resolve(const geometry *g, const trace_ray *ray, const trace_hit *found, hit *out);
+/* A hit that is to be made ready. */
+typedef struct hit_task {
+    const trace_ray *ray;
+    const differential *step; /* of the ray */
+    trace_hit *found;         /* in and out: made exact */
+    hit *hit;                 /* out, this and the next */
+    hit_step *hit_step;       /* what the step does on the surface */
+} hit_task;
 
-/* The differential of the ray that led to the hit, carried to the surface. */
-hit_step hit_differentiate(const hit *h, const differential *d, vec3 direction);
+void hit_resolve(const geometry *g, const hit_task *task);
+/* The same for many, bit for bit. */
+void hit_resolve_many(const geometry *g, const kernels *k, const hit_task *tasks, int count);
 
 /* How the interpolated unit normal turns along the same steps. */
 surface_step hit_turn(const hit *h, const hit_step *step);

@@ -95,6 +95,25 @@ void camera_sample_leave(const world *w, int x, int y, uint32_t index, camera_sa
     s->vertex.step = differential_scale(&s->vertex.step, 1.0 / w->footprint_side);
 }
 
+void camera_sample_leave_many(const world *w, uint32_t index, camera_batch *b, camera_sample samples[CAMERA_BATCH])
+{
+    const sampler any = sampler_again(0U, index);
+    b->dimension = path_dimension(0, DIM_PIXEL);
+    b->scale = 1.0 / w->footprint_side;
+    for (int i = 0; i < CAMERA_BATCH; ++i)
+        b->reversed[i] = any.reversed;
+    w->kernels->camera(w->camera, b);
+    for (int i = 0; i < CAMERA_BATCH; ++i) {
+        camera_sample *const s = &samples[i];
+        s->first = s->random = (sampler){ b->pixel[i], index, any.reversed };
+        s->layer = 0;
+        s->transmittance = 1.0F;
+        s->jitter[0] = b->jitter[0][i];
+        s->jitter[1] = b->jitter[1][i];
+        camera_batch_take(b, i, &s->vertex.ray, &s->vertex.step);
+    }
+}
+
 void camera_sample_look(const world *w, camera_sample *s)
 {
     path_look(w, &s->vertex, &s->random, 0);
@@ -143,8 +162,8 @@ static void add_light(const world *w, camera_sample *s, ray_counts *counts)
 {
     const vertex *const v = &s->vertex;
     const float *const all = camera_sample_throughput;
-    add_direct_light(w, &v->hit, &v->point, &s->random, path_dimension(0, DIM_LIGHTS), all, &s->light, &s->facets,
-                     counts);
+    const direct_point point = { v, &s->random, all, &s->light, &s->facets, 0 };
+    add_direct_light(w, &point, path_dimension(0, DIM_LIGHTS), counts);
     add_glow(w, &v->hit, &v->point, &s->random, path_dimension(0, DIM_GLOW), all, &s->light, &s->facets, counts);
     add_surroundings(w, &v->hit, &v->point, &s->random, path_dimension(0, DIM_SURROUNDINGS), all, &s->light, &s->facets,
                      counts);
@@ -155,8 +174,10 @@ bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
 {
     camera_sample s;
     camera_sample_leave(w, x, y, index, &s);
+    const hit_task task = path_hit(&s.vertex);
     if (!trace_closest(w->trace, &s.vertex.ray, TRACE_BLEND_SOLID, &s.vertex.found))
         return false;
+    hit_resolve(w->geometry, &task);
     camera_sample_look(w, &s);
     *v = s.vertex;
     return true;
@@ -165,6 +186,7 @@ bool integrate_first(const world *w, int x, int y, uint32_t index, vertex *v)
 void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, ray_counts *counts)
 {
     camera_sample s;
+    const hit_task task = path_hit(&s.vertex);
     camera_sample_leave(w, x, y, index, &s);
     do {
         ++counts->camera_rays;
@@ -172,6 +194,7 @@ void integrate(const world *w, int x, int y, uint32_t index, pixel_sample *out, 
             camera_sample_miss(w, &s, out);
             return;
         }
+        hit_resolve(w->geometry, &task);
         camera_sample_look(w, &s);
         add_light(w, &s, counts);
         camera_sample_end(w, &s, true, out);

@@ -12,6 +12,7 @@
 
 /* All that a sample reads; nothing of it changes while rendering. */
 typedef struct world {
+    const kernels *kernels;
     const geometry *geometry;
     const trace_scene *trace;
     const camera *camera;
@@ -24,6 +25,7 @@ typedef struct world {
     const environment *environment; /* in place of the sky; NULL: none */
     bool has_sky, sky_seen;         /* seen: by the camera */
     bool is_blended;                /* a surface lets rays through at random */
+    bool has_coats;                 /* a surface has two layers */
     int bounces, spp;
     /* The samples' footprints tile a pixel, side x side of them: the largest power of two whose square is at most spp,
      * so that each has as many samples. */

@@ -6,6 +6,14 @@
 #include "preview/vector.h"
 #include "scene/scene.h"
 
+/* The cap may not cover the hemisphere: a hair less than 2 pi, so that single precision stays below it too. */
+#define LIGHT_LARGEST_CAP (2.0 * PREVIEW_PI * (1.0 - 1e-6))
+/* A light without size would light no facet: an angular radius of 1e-5 rad, a 50th of a planet's disc. Taste. */
+#define LIGHT_SMALLEST_ANGLE 1e-5
+#define LIGHT_SMALLEST_CAP (PREVIEW_PI * LIGHT_SMALLEST_ANGLE * LIGHT_SMALLEST_ANGLE)
+/* On a point that all but lies in the light: what is added up of it is still a number. */
+#define LIGHT_MOST_IRRADIANCE 1e30
+
 typedef struct light {
     scene_light_kind kind;
     vec3 position;
@@ -16,6 +24,7 @@ typedef struct light {
     double cone_scale, cone_offset; /* spot: saturate(cos * scale + offset)^2 */
     double radius;                  /* metres: point and spot */
     double cosine;                  /* directional: of its angular radius */
+    double sine;                    /* likewise; 0 where it is no shape */
     float solid_angle_sr;           /* directional */
     bool unshadowed;                /* what it would bring if nothing stood in its way: for whoever compares */
 } light;

@@ -11,11 +11,14 @@ static float to_uniform(double u)
     return fminf((float)u, BELOW_ONE);
 }
 
+hit_task path_hit(vertex *v)
+{
+    return (hit_task){ &v->ray, &v->step, &v->found, &v->hit, &v->hit_step };
+}
+
 void path_look(const world *w, vertex *v, const sampler *random, int depth)
 {
     double choice[2] = { 0.0, 0.0 };
-    hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
-    v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     if (shade_wants_choice(&w->shader, &v->hit))
         sampler_pair(random, path_dimension(depth, DIM_PLACE), choice);
     shade_prepare(&w->shader, &v->hit, &v->hit_step, v3_scale(v->ray.direction, -1.0), to_uniform(choice[0]),
@@ -85,18 +88,22 @@ static bool leave(const world *w, path *p, int depth, ray_counts *counts)
     return true;
 }
 
-/* What the ray brings by itself. met: v.found is what it met. False: the path ends.
+/* What the ray brings by itself that has met nothing, or goes too far. False: the path ends.
  *
  * What glows or surrounds is dark behind a back: that throws a shadow, as rays towards the lights find, and the other
  * half of what the balance heuristic shares out would be missing. Surfaces that only reflect are seen through it. */
-static bool arrive(const world *w, path *p, bool met, int depth, ray_counts *counts)
+static bool has_met(const world *w, const path *p, bool met, int depth, ray_counts *counts)
+{
+    if (!met && !p->v.found.through_back)
+        add_escaped_light(w, &p->v.point, &p->next, p->throughput, p->sum, counts);
+    return met && depth <= w->bounces;
+}
+
+/* What it brings from the surface that it has met. */
+static void arrive(const world *w, path *p, int depth, ray_counts *counts)
 {
     vertex *const v = &p->v;
     const bool dark = v->found.through_back;
-    if (!met && !dark)
-        add_escaped_light(w, &v->point, &p->next, p->throughput, p->sum, counts);
-    if (!met || depth > w->bounces)
-        return false;
     path_look(w, v, p->random, depth);
     v->turn = hit_turn(&v->hit, &v->hit_step);
     const bool sampled =
@@ -107,7 +114,6 @@ static bool arrive(const world *w, path *p, bool met, int depth, ray_counts *cou
     shade_widen(&v->point, differential_half_vector_variance(&v->step, &v->turn));
     if (!sampled && !dark)
         add_light(p->sum, p->throughput, v->point.emission);
-    return true;
 }
 
 /* ---- one ---- */
@@ -120,10 +126,13 @@ void add_indirect_light(const world *w, const vertex *from, const sampler *rando
     begin(from, random, sum, &p);
     for (int depth = 1; (depth <= w->bounces || w->has_sky) && leave(w, &p, depth, counts); ++depth) {
         const bool met = trace_closest(w->trace, &p.v.ray, TRACE_BLEND_RANDOM, &p.v.found);
-        if (!arrive(w, &p, met, depth, counts))
+        if (!has_met(w, &p, met, depth, counts))
             return;
-        add_direct_light(w, &p.v.hit, &p.v.point, random, path_dimension(depth, DIM_LIGHTS), p.throughput, sum, NULL,
-                         counts);
+        const hit_task task = path_hit(&p.v);
+        hit_resolve(w->geometry, &task);
+        arrive(w, &p, depth, counts);
+        const direct_point point = { &p.v, random, p.throughput, sum, NULL, 0 };
+        add_direct_light(w, &point, path_dimension(depth, DIM_LIGHTS), counts);
         if (depth < w->bounces)
             add_glow(w, &p.v.hit, &p.v.point, random, path_dimension(depth, DIM_GLOW), p.throughput, sum, NULL, counts);
         add_surroundings(w, &p.v.hit, &p.v.point, random, path_dimension(depth, DIM_SURROUNDINGS), p.throughput, sum,
@@ -148,10 +157,16 @@ static int go_on(const world *w, int active, int depth, path_scratch *s, ray_cou
     for (int i = 0; i < left; ++i) {
         path *const p = s->active[i];
         p->v.found = s->hits[i];
-        if (!arrive(w, p, s->met[i], depth, counts))
+        if (!has_met(w, p, s->met[i], depth, counts))
             continue;
-        s->points[arrived] = (direct_point){ &p->v, p->random, p->throughput, p->sum, NULL, arrived };
+        s->tasks[arrived] = path_hit(&p->v);
         s->active[arrived++] = p;
+    }
+    hit_resolve_many(w->geometry, w->kernels, s->tasks, arrived);
+    for (int i = 0; i < arrived; ++i) {
+        path *const p = s->active[i];
+        arrive(w, p, depth, counts);
+        s->points[i] = (direct_point){ &p->v, p->random, p->throughput, p->sum, NULL, i };
     }
     return arrived;
 }

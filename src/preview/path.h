@@ -23,7 +23,10 @@ static inline uint32_t path_dimension(int depth, path_purpose purpose)
     return ((uint32_t)depth << 20) + (uint32_t)purpose;
 }
 
-/* Makes what the ray has found ready for light. */
+/* What makes the hit of v.ray and v.found ready. */
+hit_task path_hit(vertex *v);
+
+/* Makes the surface at the hit, which is ready, ready for light. */
 void path_look(const world *w, vertex *v, const sampler *random, int depth);
 
 /* Light that arrives at the vertex from the sky and from other surfaces. */
@@ -47,6 +50,7 @@ typedef struct path_scratch {
     path paths[PATH_MOST], *active[PATH_MOST];
     const trace_ray *rays[PATH_MOST];
     trace_hit hits[PATH_MOST];
+    hit_task tasks[PATH_MOST];
     bool met[PATH_MOST];
     direct_point points[PATH_MOST];
     direct_scratch direct;

@@ -49,12 +49,8 @@ void preview_stage_close(preview_stage *s)
 
 bool preview_stage_plan(const preview_stage *s, const preview_options *options, glint_plan **plan, report *r)
 {
-    view v = { 0 };
     *plan = NULL;
-    const bool done =
-        stage_check_options(options, r) && view_set_up(&v, &s->stage, options, r) && view_plan(&v, options, plan, r);
-    view_take_down(&v);
-    return done;
+    return stage_check_options(options, r) && view_plan(&s->stage, options, plan, r);
 }
 
 bool preview_picture_open(const preview_stage *s, const preview_options *options, preview_picture **out, report *r)

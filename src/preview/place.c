@@ -52,7 +52,9 @@ static int choose_plane(const double n[3], float choice)
 /* The normal of the triangle in the object's axes. */
 static void flat_normal(const hit *h, double n[3])
 {
-    const vec3 *const p = h->corners.position;
+    vec3 p[3];
+    for (int k = 0; k < 3; ++k)
+        p[k] = v3_from(&h->mesh->position[3U * (size_t)h->corner[k]]);
     const vec3 normal = v3_normalize(v3_cross(to_metres(h, v3_sub(p[1], p[0])), to_metres(h, v3_sub(p[2], p[0]))));
     n[0] = normal.x;
     n[1] = normal.y;

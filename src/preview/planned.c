@@ -16,11 +16,11 @@ static bool prove_sights(const world *w, uint8_t **table, report *r)
     return clear_sight_find(w->geometry, w->lights, w->light_count, *table, r);
 }
 
-static bool make_plan(planned *p, const preview_options *options, const world *w, report *r)
+static bool make_plan(planned *p, const preview_options *options, const world *w, bool with_noise, report *r)
 {
     survey seen;
     char message[256] = "";
-    if (!survey_make(w, p->sights, options, &seen, r))
+    if (!survey_make(w, p->sights, options, with_noise, &seen, r))
         return false;
     const glint_result result = glint_plan_create(&seen.summary, &p->plan, message, sizeof message);
     survey_free(&seen);
@@ -49,9 +49,9 @@ static void leave_shadows_out(planned *p, world *w)
     w->sights = is_any ? own : NULL;
 }
 
-bool planned_make(planned *p, const preview_options *options, world *w, report *r)
+bool planned_make(planned *p, const preview_options *options, world *w, bool with_noise, report *r)
 {
-    if (!prove_sights(w, &p->sights, r) || !make_plan(p, options, w, r))
+    if (!prove_sights(w, &p->sights, r) || !make_plan(p, options, w, with_noise, r))
         return false;
     const bool made = materials_make(w->shader.scene, options, p->plan, &p->materials, r);
     w->shader.materials = &p->materials;

@@ -10,9 +10,9 @@ typedef struct planned {
     uint8_t *sights; /* of the world's */
 } planned;
 
-/* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it
- * succeeds or not, planned_free frees what there is. */
-bool planned_make(planned *p, const preview_options *options, world *w, report *r);
+/* Plans for options->accuracy and makes *w obey. What *w points to then belongs to *p. Whether it succeeds or not,
+ * planned_free frees what there is. with_noise: see survey_make. */
+bool planned_make(planned *p, const preview_options *options, world *w, bool with_noise, report *r);
 void planned_free(planned *p);
 
 #endif

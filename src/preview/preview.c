@@ -115,6 +115,14 @@ static bool is_blended(const scene *s)
     return false;
 }
 
+static bool has_coats(const stage *st)
+{
+    for (int i = 0; i < st->scene->material_count; ++i)
+        if (st->materials.layers[i].coat != NULL)
+            return true;
+    return false;
+}
+
 static void set_sky(world *w, const stage *st, const preview_options *o)
 {
     w->has_sky = o->sky != NULL || wants_rig(st, o) || w->environment != NULL;
@@ -163,12 +171,14 @@ static scene_camera chosen_camera(const scene *s, const preview_options *o)
 bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
 {
     const scene_camera from_where = chosen_camera(st->scene, o);
-    *v = (view){ .world = { .geometry = &st->geometry,
+    *v = (view){ .world = { .kernels = kernels_of_machine(KERNELS_WIDEST),
+                            .geometry = &st->geometry,
                             .trace = st->trace,
                             .camera = &v->camera,
                             .shader = st->shader,
                             .environment = st->has_environment ? &st->environment : NULL,
                             .is_blended = is_blended(st->scene),
+                            .has_coats = has_coats(st),
                             .bounces = o->bounces,
                             .seed = o->seed } };
     world_take_samples(&v->world, o->spp > 0 ? o->spp : SAMPLES_TO_PLAN, o->model);
@@ -176,7 +186,7 @@ bool view_set_up(view *v, const stage *st, const preview_options *o, report *r)
         v->world.emitters = &st->emitters;
     set_sky(&v->world, st, o);
     return camera_make(&from_where, o->width, o->height, &v->camera, r) && set_lights(v, st, o, &from_where, r) &&
-           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, r));
+           (!(o->accuracy > 0.0) || planned_make(&v->planned, o, &v->world, o->spp == 0 || o->planned != NULL, r));
 }
 
 void view_take_down(view *v)
@@ -186,14 +196,20 @@ void view_take_down(view *v)
     planned_free(&v->planned);
 }
 
-bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r)
+bool view_plan(const stage *st, const preview_options *o, glint_plan **plan, report *r)
 {
-    /* A view that leaves nothing out has not been looked at. */
-    if (v->planned.plan == NULL && !planned_make(&v->planned, o, &v->world, r))
-        return false;
-    *plan = v->planned.plan;
-    v->planned.plan = NULL;
-    return true;
+    view v = { 0 };
+    /* As it is before anything is left out. */
+    preview_options all = *o;
+    all.accuracy = 0.0;
+    const bool ok = view_set_up(&v, st, &all, r) && planned_make(&v.planned, o, &v.world, true, r);
+    *plan = NULL;
+    if (ok) {
+        *plan = v.planned.plan;
+        v.planned.plan = NULL;
+    }
+    view_take_down(&v);
+    return ok;
 }
 
 static unsigned default_facet_limit(void)
@@ -264,11 +280,9 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
 {
     preview_statistics unused = { 0 };
     stage st = { 0 };
-    view v = { 0 };
     *plan = NULL;
     const bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
-                    view_set_up(&v, &st, options, r) && view_plan(&v, options, plan, r);
-    view_take_down(&v);
+                    view_plan(&st, options, plan, r);
     stage_take_down(&st);
     return ok;
 }

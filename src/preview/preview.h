@@ -51,7 +51,7 @@ typedef struct preview_options {
                         against accuracy 0, which leaves nothing out. docs/plan.md */
     glint_area_light_method area_lights; /* of accuracy 0; else the plan chooses */
     /* From the calling thread, before the first ray of the picture; plan is NULL for accuracy 0. It dies with the
-     * render. */
+     * render. NULL: no one asks, and noise that nothing is decided by is not measured. */
     void (*planned)(const glint_plan *plan, void *user);
 } preview_options;
 

@@ -11,6 +11,8 @@ typedef struct sampler {
 } sampler;
 
 sampler sampler_make(int x, int y, uint32_t sample, uint32_t seed);
+/* Another sample of the same pixel. */
+sampler sampler_again(uint32_t pixel, uint32_t sample);
 
 /* Two uniforms in [0, 1). Over the first 4^k samples each cell of a 2^k x 2^k grid holds one point; pairs of different
  * dimensions are independent. B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. */

@@ -1,16 +1,11 @@
 /* How the layers of a prepared point scatter light: evaluation and sampling of their sum, and what a cone sees of them.
  */
+#define WIDE_LANES 1
 #include "preview/shade_parts.h"
+#include "preview/sight_lanes.h"
 
 /* How far above the horizon of a coat the middle of a light is taken to be at least: sin of about a degree. Taste. */
 #define LOWEST 0.02
-
-void shade_to_local(const shade_layer *layer, vec3 world, float local[3])
-{
-    local[0] = (float)v3_dot(world, layer->x);
-    local[1] = (float)v3_dot(world, layer->y);
-    local[2] = (float)v3_dot(world, layer->z);
-}
 
 static vec3 to_world(const shade_layer *layer, const float local[3])
 {
@@ -112,90 +107,18 @@ void shade_eval(const shade_point *p, vec3 wi, float solid_angle_sr, glint_value
 
 /* ---- lights as shapes ---- */
 
-/* A cap takes the distribution as even over the half vectors that light the viewer. Their slopes over the roughness
- * spread by g = sine / (2 h.wi (n.h)^2 alpha) around s, and the mean of a distribution over a disk of that radius
- * differs by g^2 / 8 of its Laplacian: of GGX, D = 1 / (1 + s^2)^2, by g^2 |2 s^2 - 1| / (1 + s^2)^2 of itself, which
- * is g^2 in the middle of a highlight and 2 g^2 / s^2 far from it. So a real sun is a shape in the highlight of a
- * lacquer, and a cap wherever else, at a third of the cost. A Beckmann lobe is off by half of that in its middle; by
- * more in its tail, but by less than that of what the middle is. */
-static double cap_error(const shade_layer *layer, const float local[3], double sine)
-{
-    const vec3 sum = v3((double)local[0] + (double)layer->wo[0], (double)local[1] + (double)layer->wo[1],
-                        (double)local[2] + (double)layer->wo[2]);
-    const double length = fmax(v3_length(sum), 2e-3), h_dot_wi = 0.5 * length;
-    const double cosine = fmax(sum.z / length, 1e-3);
-    const double x = sum.x / (length * cosine * (double)layer->surface.alpha_x);
-    const double y = sum.y / (length * cosine * (double)layer->surface.alpha_y);
-    const double alpha = (double)fminf(layer->surface.alpha_x, layer->surface.alpha_y);
-    const double g = sine / (2.0 * h_dot_wi * cosine * cosine * alpha), s2 = x * x + y * y;
-    /* More than |2 s^2 - 1|, which vanishes where the next term does not. */
-    return g * g * (1.0 + 2.0 * s2) / ((1.0 + s2) * (1.0 + s2));
-}
-
 double shade_cap_error(const shade_point *p, vec3 wi, double sine)
 {
     double most = 0.0;
     for (int i = 0; i < shade_layers(p); ++i) {
-        float local[3];
-        shade_to_local(&p->layers[i], wi, local);
-        if (fabs((double)local[2]) < sine)
+        const wide_layer layer = sight_layer_of(&p->layers[i]);
+        double local[3];
+        to_local(&layer, w3_splat(wi), local);
+        if (fabs(local[2]) < sine)
             return (double)INFINITY;
-        most = fmax(most, cap_error(&p->layers[i], local, sine));
+        most = fmax(most, cap_error(&layer, local, sine));
     }
     return most;
-}
-
-static bool cap_is_off(const shade_layer *layer, const float local[3], double sine)
-{
-    return cap_error(layer, local, sine) > SHADE_CAP_ERROR;
-}
-
-#define MOST_SPREAD 0.1 /* of g in the middle of a highlight: its square is SHADE_CAP_ERROR */
-
-/* Whether a light stands above the horizon and its cap is never off: with |wi + wo| = 2 h.wi at most 2, g is at most
- * 2 sine / (((wi + wo).n)^2 alpha), and the error is nowhere larger than for s = 0. cosine: wi.n. */
-static inline bool is_surely_cap(const shade_layer *layer, double cosine, double sine)
-{
-    const float alpha_x = layer->surface.alpha_x, alpha_y = layer->surface.alpha_y;
-    const float alpha = alpha_x < alpha_y ? alpha_x : alpha_y;
-    const double sum = cosine + (double)layer->wo[2];
-    return layer->wo[2] > 0.0F && cosine > sine && sine <= 0.5 * MOST_SPREAD * (double)alpha * (sum * sum);
-}
-
-static bool is_lit(const shade_layer *layer, double cosine)
-{
-    return layer->wo[2] > 0.0F && cosine > 0.0;
-}
-
-/* Few lights ask, and the others shall not pay for its registers. */
-static __attribute__((noinline)) shade_sight see_exactly(const shade_point *p, const vec3 *wi, double sine)
-{
-    shade_sight sight = SHADE_UNSEEN;
-    for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const double cosine = v3_dot(*wi, layer->z);
-        float local[3];
-        shade_to_local(layer, *wi, local);
-        if (fabs(cosine) < sine || cap_is_off(layer, local, sine))
-            return SHADE_SHAPE;
-        if (is_lit(layer, cosine))
-            sight = SHADE_CAP;
-    }
-    return sight;
-}
-
-shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine)
-{
-    shade_sight sight = SHADE_UNSEEN;
-    for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const double cosine = v3_dot(*wi, layer->z);
-        if (EFFECT_ROUND_SHAPES && sine > 0.0 && !is_surely_cap(layer, cosine, sine))
-            return see_exactly(p, wi, sine);
-        if (is_lit(layer, cosine))
-            sight = SHADE_CAP;
-    }
-    return sight;
 }
 
 void shade_area_to_local(const shade_layer *layer, const shade_area *from, glint_area_light *to)
@@ -330,44 +253,67 @@ bool shade_sample(const shade_point *p, float choose_layer, const float random[3
 
 /* ---- light from all around, found in two ways ---- */
 
-/* A layer under a patch, with the footprint that a sample of this density stands for. */
-static void eval_patch(const shade_layer *layer, const glint_surface *surface, const shade_surroundings *s,
-                       const float wi[3], float density, glint_value *value)
+float shade_patch_density(const shade_point *p, int i, const shade_surroundings *s)
 {
-    const glint_light light = { GLINT_LIGHT_CAP, fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI)) };
+    const shade_layer *const layer = &p->layers[i];
+    const glint_surface surface = surface_in_surroundings(p, layer);
+    float local[3];
+    shade_to_local(layer, s->wi, local);
+    return s->light_pdf + share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
+}
+
+void shade_patch_set(const shade_point *p, int i, const shade_surroundings *s, float density, shade_patch *to)
+{
     const float expected = s->solid_angle_sr * density;
-    const float grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
-    const float longer = sqrtf(grown);
-    glint_footprint footprint = layer->footprint;
-    footprint.dudx *= longer;
-    footprint.dudy *= longer;
-    footprint.dvdx *= longer;
-    footprint.dvdy *= longer;
-    glint_eval_value(layer->material, surface, layer->counts ? &footprint : NULL, layer->wo, wi, &light, value);
-    value->facet_count /= grown;
+    to->grown = expected < 1.0F ? fminf(1.0F / expected, s->most_samples) : 1.0F;
+    to->density = density;
+    to->solid_angle_sr = fminf(s->solid_angle_sr, (float)(2.0 * PREVIEW_PI));
+    to->layer = p->layers[i];
+    to->layer.is_own = false;
+    to->layer.surface = surface_in_surroundings(p, &p->layers[i]);
+    glint_footprint *const f = &to->layer.footprint;
+    const float longer = sqrtf(to->grown);
+    f->dudx *= longer;
+    f->dudy *= longer;
+    f->dvdx *= longer;
+    f->dvdy *= longer;
+}
+
+static void eval_patch(const shade_patch *patch, vec3 wi, glint_value *value)
+{
+    const glint_light light = { GLINT_LIGHT_CAP, patch->solid_angle_sr };
+    const shade_layer *const layer = &patch->layer;
+    float local[3];
+    shade_to_local(layer, wi, local);
+    glint_eval_value(layer->material, &layer->surface, layer->counts ? &layer->footprint : NULL, layer->wo, local,
+                     &light, value);
+}
+
+void shade_add_patch(const shade_point *p, int i, vec3 wi, const shade_patch *patch, glint_value *one, glint_value *sum)
+{
+    float weight[3];
+    weigh(p, i, wi, weight);
+    for (int c = 0; c < 3; ++c) {
+        sum->rgb[c] += weight[c] * one->rgb[c] / patch->density;
+        sum->smooth[c] += weight[c] * one->smooth[c] / patch->density;
+    }
+    one->facet_count /= patch->grown;
+    if (patch->layer.counts)
+        add_facets(one, sum);
 }
 
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value)
 {
     *value = (glint_value){ 0 };
     for (int i = 0; i < shade_layers(p); ++i) {
-        const shade_layer *const layer = &p->layers[i];
-        const glint_surface surface = surface_in_surroundings(p, layer);
-        float local[3], weight[3];
+        const float density = shade_patch_density(p, i, s);
+        shade_patch patch;
         glint_value one;
-        shade_to_local(layer, s->wi, local);
-        const float own = share_of(p, i) * glint_pdf(layer->material, &surface, NULL, layer->wo, local);
-        const float density = s->light_pdf + own;
         if (!(density > 0.0F))
             continue;
-        eval_patch(layer, &surface, s, local, density, &one);
-        weigh(p, i, s->wi, weight);
-        for (int c = 0; c < 3; ++c) {
-            value->rgb[c] += weight[c] * one.rgb[c] / density;
-            value->smooth[c] += weight[c] * one.smooth[c] / density;
-        }
-        if (layer->counts)
-            add_facets(&one, value);
+        shade_patch_set(p, i, s, density, &patch);
+        eval_patch(&patch, s->wi, &one);
+        shade_add_patch(p, i, s->wi, &patch, &one, value);
     }
 }
 
@@ -380,10 +326,10 @@ void shade_eval_found(const shade_point *p, const shade_surroundings *s, const s
     glint_value one = { 0 };
     *value = (glint_value){ 0 };
     if (counts) {
-        const glint_surface surface = surface_in_surroundings(p, layer);
-        float local[3];
-        shade_to_local(layer, s->wi, local);
-        eval_patch(layer, &surface, s, local, density, &one);
+        shade_patch patch;
+        shade_patch_set(p, found->layer, s, density, &patch);
+        eval_patch(&patch, s->wi, &one);
+        one.facet_count /= patch.grown;
         add_facets(&one, value);
     }
     for (int c = 0; c < 3; ++c) {

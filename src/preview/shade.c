@@ -133,24 +133,30 @@ void shade_set_frame(shade_layer *layer, vec3 normal, vec3 along, vec3 wo)
 
 /* ---- layers ---- */
 
+void shade_begin_coat(shade_point *p)
+{
+    float below[3];
+    p->layer_count = 2;
+    p->counts = p->counts || p->layers[1].counts;
+    shade_below_coat(p, NULL, below);
+    p->layers[0].weight = (below[0] + below[1] + below[2]) / 3.0F;
+    for (int i = 0; i < 3; ++i)
+        p->emission[i] *= below[i];
+}
+
 static void add_coat(const lookup *l, const scene_material *m, const scene_texels *t, const material_layers *handles,
                      vec3 wo, shade_point *out)
 {
     if (!EFFECT_COATS || handles->coat == NULL || !(t->clearcoat > 0.0F))
         return;
-    shade_layer *const coat = &out->layers[out->layer_count++];
+    shade_layer *const coat = &out->layers[1];
     coat->material = handles->coat;
     coat->counts = handles->coat_counts;
     coat->mapped = handles->coat_mapped;
     coat->surface = scene_coat_surface(m, t);
     coat->weight = fminf(t->clearcoat, 1.0F);
     shade_set_frame(coat, mapped_normal(l, &m->clearcoat_normal_texture, wo), l->hit->tangent, wo);
-
-    float below[3];
-    shade_below_coat(out, NULL, below);
-    out->layers[0].weight = (below[0] + below[1] + below[2]) / 3.0F;
-    for (int i = 0; i < 3; ++i)
-        out->emission[i] *= below[i];
+    shade_begin_coat(out);
 }
 
 /* Turns the frame so that x and y are those of a normal map, along u and v. Seen from behind, the normal has turned
@@ -227,7 +233,7 @@ void shade_prepare_any(const shader *s, const hit *h, const hit_step *step, vec3
     out->whole = handles->whole;
     add_coat(&l, m, &t, handles, wo, out);
     out->draws = handles->draws;
-    out->counts = base->counts || (shade_layers(out) == 2 && out->layers[1].counts);
+    out->counts = out->counts || base->counts;
     if (!EFFECT_FACETS || !out->counts)
         return;
     shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_BASE, base);

@@ -70,16 +70,6 @@ void shade_below_coat(const shade_point *p, const vec3 *wi, float rgb[3]);
 /* Whether light from wi can reach the viewer by any layer. */
 bool shade_faces(const shade_point *p, vec3 wi);
 
-/* How a round light around wi (world, unit) is seen. */
-typedef enum shade_sight {
-    SHADE_UNSEEN,
-    SHADE_CAP,
-    SHADE_SHAPE /* it stands astride a layer's horizon, or the reflection changes over it */
-} shade_sight;
-
-/* sine: of its angular radius; 0: it is no shape to anyone. */
-shade_sight shade_see(const shade_point *p, const vec3 *wi, double sine);
-
 /* A light as a shape as the point sees it, in world axes: sun, sphere, rectangle or disk. */
 typedef struct shade_area {
     glint_area_kind kind;
@@ -95,7 +85,7 @@ bool shade_faces_area(const shade_point *p, const shade_area *area);
 /* About how much a round light around wi (world, unit), taken as if all of it came from its middle, is off: relative;
  * infinite where it stands astride a layer's horizon. sine: of its angular radius. */
 double shade_cap_error(const shade_point *p, vec3 wi, double sine);
-/* From which on shade_see says that a light of some size has to be seen as a shape. */
+/* From which on a light of some size has to be seen as a shape, as has one that stands astride a layer's horizon. */
 #define SHADE_CAP_ERROR 0.01
 /* A light of either kind at a point. */
 typedef struct shade_query {
@@ -104,7 +94,7 @@ typedef struct shade_query {
     float solid_angle_sr;
     bool is_area;
     shade_area area;
-    glint_value value; /* out */
+    const glint_value *value; /* out */
 } shade_query;
 
 static inline bool shade_is_area(const shade_query *q)
@@ -115,8 +105,10 @@ static inline bool shade_is_area(const shade_query *q)
 enum { SHADE_MOST_QUERIES = 256 };
 
 /* shade_eval or shade_eval_area for every query, bit for bit: sorted by material, and evaluated in batches. At most
- * SHADE_MOST_QUERIES. The points are as shade_prepare left them. */
-void shade_eval_many(shade_query *const *queries, int count);
+ * SHADE_MOST_QUERIES. The points are as shade_prepare left them, and none is unlit. values: room for what they
+ * point to afterwards. evaluated: added to it is how many layers did not count facets, and how many did. */
+void shade_eval_many(shade_query *const *queries, int count, glint_value values[2 * SHADE_MOST_QUERIES],
+                     uint64_t evaluated[2]);
 
 /* Mean over the channels of f |cos theta_i| without single facets, for one of its directions. */
 float shade_level(const shade_point *p, vec3 wi);
@@ -148,6 +140,9 @@ typedef struct shade_surroundings {
  * Few samples look into a patch, so each stands for more of the pixel than its own footprint: for 1 / P of it, with P
  * samples expected there. It counts the facets of that area. */
 void shade_eval_surroundings(const shade_point *p, const shade_surroundings *s, glint_value *value);
+/* The same for at most 64 of them, bit for bit, in batches. */
+void shade_eval_surroundings_many(const shade_point *const *points, const shade_surroundings *const *from, int count,
+                                  glint_value *values);
 /* The same for one that shade_sample found: its layer's part. */
 void shade_eval_found(const shade_point *p, const shade_surroundings *s, const shade_direction *found,
                       glint_value *value);

@@ -1,5 +1,5 @@
-/* Surfaces that are the same everywhere: without textures, vertex colours, coat and turned highlights nothing is looked
- * up at a hit, and all that it needs is known before the first ray. */
+/* Surfaces that are the same everywhere: without textures, vertex colours and turned highlights nothing is looked up at
+ * a hit, and all that it needs is known before the first ray. */
 #include <stdlib.h>
 
 #include "preview/place.h"
@@ -8,7 +8,8 @@
 
 struct shade_constant {
     shade_preparer *prepare;
-    glint_surface surface;
+    glint_surface surface, coat;
+    float clearcoat;
     float emission[3], albedo[3], opacity;
     bool wants_choice; /* facets on the planes of the object's axes: one of them is chosen at random */
 };
@@ -53,15 +54,17 @@ static bool has_planes(const scene *s, int material)
 static bool is_plain(const scene *s, int material)
 {
     const scene_material *const m = &s->materials[material];
-    return !m->unlit && !(m->clearcoat > 0.0F) && m->anisotropy_rotation == 0.0F && !has_textures(m) &&
-           !has_vertex_colors(s, material);
+    return !m->unlit && m->anisotropy_rotation == 0.0F && !has_textures(m) && !has_vertex_colors(s, material);
 }
 
 static struct shade_constant constant_of(const scene_material *m)
 {
     const scene_texels t = scene_texels_of(m);
-    struct shade_constant c = { .prepare = shade_prepare_plain,
+    const bool is_coated = EFFECT_COATS && m->clearcoat > 0.0F;
+    struct shade_constant c = { .prepare = is_coated ? shade_prepare_coated : shade_prepare_plain,
                                 .surface = scene_base_surface(m, &t),
+                                .coat = scene_coat_surface(m, &t),
+                                .clearcoat = fminf(m->clearcoat, 1.0F),
                                 .opacity = m->alpha_mode == SCENE_ALPHA_BLEND ? fminf(t.base_color[3], 1.0F) : 1.0F };
     for (int i = 0; i < 3; ++i) {
         c.emission[i] = m->emissive[i];
@@ -126,4 +129,29 @@ void shade_prepare_plain(const shader *s, const hit *h, const hit_step *step, ve
     shade_set_frame(base, h->normal, h->tangent, wo);
     if (EFFECT_FACETS && out->counts)
         shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_BASE, base);
+}
+
+void shade_prepare_coated(const shader *s, const hit *h, const hit_step *step, vec3 wo, float choice, shade_point *out)
+{
+    const struct shade_constant *const c = &s->constants[h->mesh->material];
+    const material_layers *const handles = &s->materials->layers[h->mesh->material];
+    shade_prepare_plain(s, h, step, wo, choice, out);
+    shade_layer *const coat = &out->layers[1];
+    coat->material = handles->coat;
+    coat->counts = handles->coat_counts;
+    coat->mapped = handles->coat_mapped;
+    coat->is_own = !handles->coat_mapped;
+    coat->surface = c->coat;
+    coat->weight = c->clearcoat;
+    const shade_layer *const base = &out->layers[0];
+    coat->x = base->x;
+    coat->y = base->y;
+    coat->z = base->z;
+    for (int i = 0; i < 3; ++i)
+        coat->wo[i] = base->wo[i];
+    if (base->mapped) /* which has turned the frame */
+        shade_set_frame(coat, h->normal, h->tangent, wo);
+    shade_begin_coat(out);
+    if (EFFECT_FACETS && coat->counts)
+        shade_place_glints(s, h, step, choice, wo, SCENE_LAYER_CLEARCOAT, coat);
 }

@@ -38,8 +38,9 @@ typedef struct view {
 /* The view may not move either. */
 bool view_set_up(view *v, const stage *st, const preview_options *o, report *r);
 void view_take_down(view *v);
-/* The plan of a view, made for this where the view was set up without one; the caller destroys it. */
-bool view_plan(view *v, const preview_options *o, glint_plan **plan, report *r);
+/* The plan of a view, and all that there is to say of it, its noise as well; the caller destroys it. On failure *plan
+ * is NULL. */
+bool view_plan(const stage *st, const preview_options *o, glint_plan **plan, report *r);
 
 bool stage_check_options(const preview_options *o, report *r);
 /* An error when the explicit model met more facets than it visits. */

@@ -36,14 +36,12 @@ static void note_facets(direct_facets *facets, const glint_value *value)
 
 /* ---- one direction of the light's own: ask for a ray, and answer where it passes ---- */
 
-static void answer(const surroundings_query *q, const shade_point *p, const float throughput[3], radiance *sum,
-                   direct_facets *facets, ray_counts *counts)
+static void answer(const float rgb[3], const glint_value *value, const shade_point *p, const float throughput[3],
+                   radiance *sum, direct_facets *facets, ray_counts *counts)
 {
-    glint_value value;
-    shade_eval_surroundings(p, &q->from, &value);
-    count_evaluation(p, &value, counts);
-    add_value(sum, throughput, q->rgb, &value);
-    note_facets(facets, &value);
+    count_evaluation(p, value, counts);
+    add_value(sum, throughput, rgb, value);
+    note_facets(facets, value);
 }
 
 /* False: it brings nothing. */
@@ -77,8 +75,25 @@ static void add_one(const world *w, asks *ask, const hit *h, const shade_point *
     if (!ask(w, h, p, random, dimension, &q, &ray))
         return;
     ++counts->shadow_rays;
-    if (!trace_occluded(w->trace, &ray))
-        answer(&q, p, throughput, sum, facets, counts);
+    if (trace_occluded(w->trace, &ray))
+        return;
+    glint_value value;
+    shade_eval_surroundings(p, &q.from, &value);
+    answer(q.rgb, &value, p, throughput, sum, facets, counts);
+}
+
+/* Lists the queries that nothing is in the way of. */
+static int list_lit(surroundings_scratch *s, int asked)
+{
+    int lit = 0;
+    for (int i = 0; i < asked; ++i) {
+        if (s->dark[i])
+            continue;
+        s->lit[lit] = &s->queries[i].to->vertex->point;
+        s->answers[lit] = &s->queries[i];
+        s->from[lit++] = &s->queries[i].from;
+    }
+    return lit;
 }
 
 static void add_many(const world *w, asks *ask, const direct_point *points, int count, uint32_t dimension,
@@ -92,10 +107,11 @@ static void add_many(const world *w, asks *ask, const direct_point *points, int 
     }
     counts->shadow_rays += (uint64_t)asked;
     trace_occluded_many(w->trace, s->rays, asked, s->dark);
-    for (int i = 0; i < asked; ++i) {
-        const direct_point *const p = s->queries[i].to;
-        if (!s->dark[i])
-            answer(&s->queries[i], &p->vertex->point, p->throughput, p->light, p->facets, counts);
+    const int lit = list_lit(s, asked);
+    shade_eval_surroundings_many(s->lit, s->from, lit, s->values);
+    for (int i = 0; i < lit; ++i) {
+        const direct_point *const p = s->answers[i]->to;
+        answer(s->answers[i]->rgb, &s->values[i], s->lit[i], p->throughput, p->light, p->facets, counts);
     }
 }
 

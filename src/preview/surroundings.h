@@ -41,6 +41,10 @@ typedef struct surroundings_scratch {
     surroundings_query queries[SURROUNDINGS_MOST];
     trace_ray rays[SURROUNDINGS_MOST];
     bool dark[SURROUNDINGS_MOST];
+    const shade_point *lit[SURROUNDINGS_MOST]; /* where nothing is in the way */
+    const shade_surroundings *from[SURROUNDINGS_MOST];
+    const surroundings_query *answers[SURROUNDINGS_MOST];
+    glint_value values[SURROUNDINGS_MOST];
 } surroundings_scratch;
 
 /* count: at most SURROUNDINGS_MOST. */

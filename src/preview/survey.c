@@ -22,6 +22,8 @@
  * 720 pixels at a microsecond a sample takes an hour of one core with the most. Taste. */
 #define LEAST_SAMPLES 4
 #define MOST_SAMPLES 4096
+/* What a plan takes. */
+#define MOST_CONTRAST 1e20
 
 typedef struct tally {
     const world *world;
@@ -50,15 +52,16 @@ static glint_plan_pair *pair_of(tally *t, int material, int index)
     return &t->out->pairs[*known - 1U];
 }
 
-/* What caps are off is the mean over samples that take them and samples that do not; so is what they turn on and off.
- */
+/* What caps are off is the mean over samples that take them and samples that do not, and so is what they turn on and
+ * off: of n samples of which each takes one with the chance c the square of the share is c^2 + c (1 - c) / n. */
 static void add_shape(tally *t, const survey_light *l, glint_plan_pair *pair, float evals, double part, double sparks)
 {
     if (l->shape < 0)
         return;
     glint_plan_shape *const to = &pair->shapes[l->shape];
     survey_sparks *const all = &t->out->sparks[(pair - t->out->pairs) * GLINT_PLAN_SHAPES + l->shape];
-    const double square = l->cap_off * l->cap_off * part, share = l->cap_share * l->cap_share;
+    const double square = l->cap_off * l->cap_off * part, chance = l->cap_share;
+    const double share = chance * (chance + (1.0 - chance) / t->world->spp);
     t->out->lights[pair->light].kind = GLINT_PLAN_LIGHT_SHAPE;
     to->seen += evals;
     to->part += (float)part;
@@ -73,7 +76,7 @@ static void add_light(tally *t, const survey_pixel *from, const survey_light *l)
     glint_plan_light *const to = &t->out->lights[l->index];
     glint_plan_pair *const pair = pair_of(t, from->material, l->index);
     const double share = l->level / from->level, part = share * share / l->probability;
-    const double sparks = l->lit > 0.0 ? l->level * l->level / (l->lit * l->probability) : 0.0;
+    const double sparks = l->lit > 0.0 ? l->facet_level * l->facet_level / (l->lit * l->probability) : 0.0;
     const float evals = (float)(l->glint_evals + l->smooth_evals);
     to->shadow_rays += (uint32_t)l->shadow_rays;
     to->blocked_rays += l->is_blocked;
@@ -196,7 +199,7 @@ static void end(survey *s, const tally *t, const survey_noise *noise, const prev
     end_pairs(s, t);
     end_samples(s, t, noise, o);
     if (t->sum > 0.0)
-        to->contrast = (float)fmax(t->square * t->pixels / (t->sum * t->sum), 1.0);
+        to->contrast = (float)fmin(fmax(t->square * t->pixels / (t->sum * t->sum), 1.0), MOST_CONTRAST);
     to->bounce_rays = (float)fmax(t->bounce_rays / t->pixels, 0.0);
     to->sky_rays = (float)(t->sky_rays / t->pixels);
     to->bounced = (float)sqrt(fmax(t->bounced / t->pixels, 0.0));
@@ -252,9 +255,9 @@ static void look_at_all(tally *t, const preview_options *o, const survey_place *
         add_pixel(t, &pixels[i]);
 }
 
-static bool look(tally *t, const preview_options *o, int columns, int rows, report *r)
+static bool look(tally *t, const preview_options *o, bool with_noise, int columns, int rows, report *r)
 {
-    survey_noise noise;
+    survey_noise noise = { .samples = 1, .fall = 1.0 };
     const int count = columns * rows;
     survey_place *const places = calloc((size_t)count, sizeof *places);
     survey_pixel *const pixels = calloc((size_t)count, sizeof *pixels);
@@ -268,7 +271,7 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
     const survey_noise_limits limits = { .samples = noise_samples(o),
                                          .enough = o->spp > 0 ? 0.0 : o->accuracy / 2.0,
                                          .threads = o->threads };
-    done = done && survey_noise_measure(t->world, places, count, &limits, &noise, r);
+    done = done && (!with_noise || survey_noise_measure(t->world, places, count, &limits, &noise, r));
     free(places);
     free(pixels);
     if (done)
@@ -276,14 +279,15 @@ static bool look(tally *t, const preview_options *o, int columns, int rows, repo
     return done;
 }
 
-bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r)
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, bool with_noise, survey *out,
+                 report *r)
 {
     tally t = { .world = w, .sights = sights, .out = out, .light_count = w->light_count + survey_has_surroundings(w) };
     int columns, rows;
     choose_grid(w, o, &columns, &rows);
     if (!survey_begin(out, w, o, t.light_count, (size_t)columns * (size_t)rows * (MOST_LIGHTS + 1), r))
         return false;
-    if (look(&t, o, columns, rows, r))
+    if (look(&t, o, with_noise, columns, rows, r))
         return true;
     survey_free(out);
     return false;

@@ -28,8 +28,9 @@ typedef struct survey {
 } survey;
 
 /* w leaves nothing out. sights: what is proven of its lights. The same for every number of threads and for every
- * tile of a picture. */
-bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, survey *out, report *r);
+ * tile of a picture. with_noise false: where the number of samples is given and no one asks what they leave. */
+bool survey_make(const world *w, const uint8_t *sights, const preview_options *o, bool with_noise, survey *out,
+                 report *r);
 void survey_free(survey *s);
 
 /* survey_scene.c: materials and lights, and room for as many pairs of them as can be seen. On failure *out is zeroed.

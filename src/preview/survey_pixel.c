@@ -68,7 +68,8 @@ static radiance look_at_light(const world *w, int index, looking how, const vert
     alone.lights = &own;
     alone.light_count = 1;
     alone.cap_error = how.as_cap ? (double)INFINITY : 0.0;
-    add_direct_light(&alone, &v->hit, &v->point, random, DIM_SURVEY, all, &sum, facets, counts);
+    const direct_point point = { v, random, all, &sum, facets, 0 };
+    add_direct_light(&alone, &point, DIM_SURVEY, counts);
     return sum;
 }
 
@@ -96,6 +97,25 @@ static void note_shape(const world *w, const vertex *v, const sampler *random, s
     to->cap_share = direct_cap_share(error, ldexp(SHADE_CAP_ERROR, to->shape));
 }
 
+/* The point with what its single facets reflect and nothing else: neither what is smooth in another layer nor what is
+ * diffuse, which may be many orders brighter where hardly a facet is lit. (A coat then takes nothing of its base, which
+ * is a few percent more than there is.) */
+static vertex facets_alone(const vertex *v)
+{
+    vertex alone = *v;
+    for (int i = 0; i < alone.point.layer_count; ++i) {
+        shade_layer *const layer = &alone.point.layers[i];
+        glint_surface *const s = &layer->surface;
+        layer->is_own = false;
+        for (int c = 0; c < 3; ++c) {
+            s->diffuse[c] = 0.0F;
+            s->f0[c] = layer->counts ? s->f0[c] : 0.0F;
+            s->f90[c] = layer->counts ? s->f90[c] : 0.0F;
+        }
+    }
+    return alone;
+}
+
 /* Of many lights a render chooses some, and we look at those: as often as it evaluates them, each for those that it
  * stands for. */
 static survey_light note_light(const world *w, chosen_light chosen, const vertex *v, const sampler *random)
@@ -117,6 +137,12 @@ static survey_light note_light(const world *w, chosen_light chosen, const vertex
     const double tiles = (double)w->glint_side * (double)w->glint_side;
     note.counts = facets.count > 0.0F;
     note.lit = (double)facets.count * tiles * (double)facets.lit_probability;
+    if (note.lit > 0.0) {
+        const vertex alone = facets_alone(v);
+        const radiance shown =
+            look_at_light(w, chosen.index, (looking){ .shadowed = true }, &alone, random, &unused, &none);
+        note.facet_level = level(shown.smooth);
+    }
     return note;
 }
 

@@ -15,6 +15,7 @@ typedef struct survey_light {
     double level;       /* of its light, without single facets */
     bool counts;        /* single facets, of which so many are lit in the pixel, N p: */
     double lit;
+    double facet_level; /* and what of level is theirs */
     uint64_t glint_evals, smooth_evals, shadow_rays;
     bool is_blocked; /* by a shadow, some of it */
 } survey_light;

@@ -51,7 +51,7 @@ static void render_block(const queue *q, int x, int y, worker *own)
     const bool described = film_is_described(job->film);
     block *const b = &own->block;
     uint32_t index = 0;
-    block_begin(b, x, y, &q->window);
+    block_begin(b, x, y, &q->window, job->world->seed);
     memset(own->pixels, 0, sizeof own->pixels);
     for (int i = 0; job->sums != NULL && i < BLOCK_PIXELS; ++i)
         if (b->is_seen[i]) {

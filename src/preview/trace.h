@@ -33,7 +33,8 @@ typedef enum trace_blending {
 bool trace_build(const geometry *g, trace_opacity opacity, const void *user, trace_scene **out, report *r);
 void trace_free(trace_scene *t);
 
-/* The closest surface; the back of a single-sided material and what a mask cuts away are not there. */
+/* The closest surface; the back of a single-sided material and what a mask cuts away are not there. Where it is, *hit
+ * says in single precision: hit_resolve makes that exact. */
 bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending blending, trace_hit *hit);
 
 /* Whether anything lies between near and far. A single-sided surface throws its shadow from both sides. */

@@ -4,7 +4,6 @@
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "preview/hash.h"
 
@@ -244,14 +243,6 @@ static query make_query(const trace_scene *t, const trace_ray *const *rays, trac
     return q;
 }
 
-/* What Embree found, made exact. */
-static trace_hit exact_hit(const trace_scene *t, const trace_ray *ray, const trace_hit *found)
-{
-    trace_hit hit = *found;
-    geometry_meet(t->geometry, hit.instance, hit.triangle, ray->origin, ray->direction, hit.weights, &hit.distance);
-    return hit;
-}
-
 /* A back so close to what is hit is its other side: shadow rays towards it end there, too. */
 #define BEFORE 0.9999F
 
@@ -266,12 +257,11 @@ bool trace_closest(const trace_scene *t, const trace_ray *ray, trace_blending bl
     hit->through_back = through_back;
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-    const trace_hit rough = { .instance = (int)found.hit.instID[0],
-                              .triangle = found.hit.primID,
-                              .distance = (double)found.ray.tfar,
-                              .weights = { (double)found.hit.u, (double)found.hit.v } };
-    *hit = exact_hit(t, ray, &rough);
-    hit->through_back = through_back;
+    *hit = (trace_hit){ .instance = (int)found.hit.instID[0],
+                        .triangle = found.hit.primID,
+                        .distance = (double)found.ray.tfar,
+                        .weights = { (double)found.hit.u, (double)found.hit.v },
+                        .through_back = through_back };
     return true;
 }
 
@@ -285,31 +275,31 @@ bool trace_occluded(const trace_scene *t, const trace_ray *ray)
 
 /* ---- packets ---- */
 
+static const trace_ray no_ray;
+
 /* valid: -1 where there is a ray. False: there is none, and Embree would never come back from it. */
 static bool set_packet(const trace_ray *const rays[TRACE_PACKET], struct RTCRay16 *to, int valid[TRACE_PACKET])
 {
-    bool is_any = false;
-    memset(to, 0, sizeof *to); /* narrower machines look at the numbers of lanes without a ray, too */
+    int is_any = 0;
     for (unsigned i = 0; i < TRACE_PACKET; ++i) {
+        /* Narrower machines look at the numbers of lanes without a ray, too. */
+        const trace_ray *const ray = rays[i] != NULL ? rays[i] : &no_ray;
         valid[i] = rays[i] != NULL ? -1 : 0;
-        if (rays[i] == NULL)
-            continue;
-        is_any = true;
-        const struct RTCRay ray = embree_ray(rays[i]);
-        to->org_x[i] = ray.org_x;
-        to->org_y[i] = ray.org_y;
-        to->org_z[i] = ray.org_z;
-        to->tnear[i] = ray.tnear;
-        to->dir_x[i] = ray.dir_x;
-        to->dir_y[i] = ray.dir_y;
-        to->dir_z[i] = ray.dir_z;
-        to->time[i] = ray.time;
-        to->tfar[i] = ray.tfar;
-        to->mask[i] = ray.mask;
+        is_any |= valid[i];
+        to->org_x[i] = (float)ray->origin.x;
+        to->org_y[i] = (float)ray->origin.y;
+        to->org_z[i] = (float)ray->origin.z;
+        to->tnear[i] = (float)ray->near;
+        to->dir_x[i] = (float)ray->direction.x;
+        to->dir_y[i] = (float)ray->direction.y;
+        to->dir_z[i] = (float)ray->direction.z;
+        to->tfar[i] = (float)ray->far;
         to->id[i] = i;
+        to->time[i] = 0.0F;
+        to->mask[i] = UINT32_MAX;
         to->flags[i] = 0;
     }
-    return is_any;
+    return is_any != 0;
 }
 
 uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[TRACE_PACKET], trace_blending blending,
@@ -336,12 +326,11 @@ uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[
         hits[i].through_back = through_back;
         if (found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
             continue;
-        const trace_hit rough = { .instance = (int)found.hit.instID[0][i],
-                                  .triangle = found.hit.primID[i],
-                                  .distance = (double)found.ray.tfar[i],
-                                  .weights = { (double)found.hit.u[i], (double)found.hit.v[i] } };
-        hits[i] = exact_hit(t, rays[i], &rough);
-        hits[i].through_back = through_back;
+        hits[i] = (trace_hit){ .instance = (int)found.hit.instID[0][i],
+                               .triangle = found.hit.primID[i],
+                               .distance = (double)found.ray.tfar[i],
+                               .weights = { (double)found.hit.u[i], (double)found.hit.v[i] },
+                               .through_back = through_back };
         hit |= 1U << i;
     }
     return hit;
@@ -369,7 +358,7 @@ void trace_closest_many(const trace_scene *t, const trace_ray *const *rays, int 
     for (int first = 0; first < count; first += TRACE_PACKET) {
         const int size = count - first < TRACE_PACKET ? count - first : TRACE_PACKET;
         const trace_ray *packet[TRACE_PACKET] = { NULL };
-        trace_hit found[TRACE_PACKET];
+        trace_hit found[TRACE_PACKET] = { { 0 } };
         for (int i = 0; i < size; ++i)
             packet[i] = rays[first + i];
         const uint32_t any = trace_closest_packet(t, packet, blending, found);

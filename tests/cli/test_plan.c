@@ -30,6 +30,10 @@ static void assert_is_plan(const json_t *plan)
     assert_true(fabs(time - 1.0) < 1e-4);
     assert_true(json_is_number(json_object_get(plan, "error")) && json_is_number(json_object_get(plan, "noise")));
     assert_true(json_is_boolean(json_object_get(plan, "met")));
+    /* Rounded to so many digits. */
+    assert_true(json_number_value(json_object_get(plan, "error_of_mean")) >=
+                0.999 * json_number_value(json_object_get(plan, "error")));
+    assert_true(json_is_number(json_object_get(plan, "error_of_mean")));
 }
 
 static void plan_is_a_table_and_a_document(void **state)

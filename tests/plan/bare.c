@@ -3,7 +3,9 @@
  * previewer. */
 #include "bare.h"
 
+#include "preview/camera_batch.h"
 #include "preview/film.h"
+#include "preview/light_batch.h"
 #include "preview/place.h"
 #include "preview/sampler.h"
 #include "preview/shade_parts.h"
@@ -11,12 +13,12 @@
 /* As in src/preview/integrator.c: the same samples make the same pixels. */
 enum { DIM_PIXEL = 0, DIM_LIGHTS = 5 };
 
+enum { SIDE = 8, PACKET = 4, COUNT = SIDE * SIDE };
+
 static void look(const world *w, vertex *v)
 {
     float density_scale;
     const scene *const s = w->shader.scene;
-    hit_resolve(w->geometry, &v->ray, &v->found, &v->hit);
-    v->hit_step = hit_differentiate(&v->hit, &v->step, v->ray.direction);
     const int material = v->hit.mesh->material;
     shade_layer *const layer = &v->point.layers[0];
     v->point.layer_count = 1;
@@ -28,12 +30,12 @@ static void look(const world *w, vertex *v)
     }
 }
 
-static void tile(const world *w, const double jitter[2], glint_footprint *f)
+static void tile(const world *w, const double jitter[2][COUNT], int pixel, glint_footprint *f)
 {
     const float larger = (float)w->footprint_side / (float)w->glint_side;
     double to_middle[2];
     for (int k = 0; k < 2; ++k) {
-        const double at = jitter[k] * w->glint_side;
+        const double at = jitter[k][pixel] * w->glint_side;
         to_middle[k] = floor(at) + 0.5 - at;
     }
     f->dudx *= larger;
@@ -44,29 +46,15 @@ static void tile(const world *w, const double jitter[2], glint_footprint *f)
     f->v += to_middle[0] * (double)f->dvdx + to_middle[1] * (double)f->dvdy;
 }
 
-/* Towards a place of the light. False: the point does not face it. */
-static bool aim(const vertex *v, const light *l, const light_view *view, const sampler *random, uint32_t dimension,
-                trace_ray *ray)
-{
-    double u[2];
-    if (!(v->point.layers[0].wo[2] > 0.0F && v3_dot(view->wi, v->point.layers[0].z) > 0.0))
-        return false;
-    *ray = (trace_ray){ .origin = hit_leave(&v->hit, v->hit.shadow_origin) };
-    sampler_pair(random, dimension, u);
-    light_pick(l, view, ray->origin, u, &ray->direction, &ray->far);
-    return true;
-}
-
 /* ---- a block of pixels ---- */
-
-enum { SIDE = 8, PACKET = 4, COUNT = SIDE * SIDE };
 
 typedef struct bare_block {
     int x[COUNT], y[COUNT];
     sampler random[COUNT];
-    double jitter[COUNT][2];
+    camera_batch camera;
     vertex v[COUNT];
     int hit[COUNT], hits; /* which of them are */
+    light_batch lights;   /* of those */
     pixel_sample out[COUNT];
 } bare_block;
 
@@ -81,15 +69,16 @@ typedef struct bare_batch {
     size_t count;
 } bare_batch;
 
-static void add_point(bare_batch *b, const vertex *v, const light_view *view, pixel_sample *out)
+static void add_point(bare_batch *b, const vertex *v, const light_batch *seen, int point, pixel_sample *out)
 {
     const shade_layer *const layer = &v->point.layers[0];
     const size_t i = b->count++;
+    const vec3 wi = v3(seen->wi[0][point], seen->wi[1][point], seen->wi[2][point]);
     const vec3 axes[3] = { layer->x, layer->y, layer->z };
     for (int c = 0; c < 3; ++c) {
         b->wo[c][i] = layer->wo[c];
-        b->wi[c][i] = (float)v3_dot(view->wi, axes[c]);
-        b->irradiance[i][c] = view->irradiance[c];
+        b->wi[c][i] = (float)v3_dot(wi, axes[c]);
+        b->irradiance[i][c] = seen->irradiance[c][point];
     }
     b->at[0][i] = layer->footprint.u;
     b->at[1][i] = layer->footprint.v;
@@ -98,7 +87,7 @@ static void add_point(bare_batch *b, const vertex *v, const light_view *view, pi
     b->step[2][i] = layer->footprint.dvdx;
     b->step[3][i] = layer->footprint.dvdy;
     b->seed[i] = layer->footprint.seed;
-    b->solid_angle_sr[i] = view->solid_angle_sr;
+    b->solid_angle_sr[i] = seen->solid_angle_sr[point];
     b->v[i] = v;
     b->out[i] = out;
 }
@@ -126,58 +115,78 @@ static void add_batch(bare_batch *b)
             b->out[i]->light.discrete[c] += b->irradiance[i][c] * b->rgb[c][i];
 }
 
+static void look_at_lights(const world *w, bare_block *b)
+{
+    b->lights.count = b->hits;
+    b->lights.layers = 1;
+    for (int i = 0; i < b->hits || i % w->kernels->lanes != 0; ++i) {
+        const int at = b->hit[i < b->hits ? i : b->hits - 1];
+        light_batch_set(&b->lights, i, &b->v[at].hit, &b->v[at].point, &b->random[at]);
+    }
+}
+
 static void add_light(const world *w, int index, bare_block *b)
 {
     const light *const l = &w->lights[index];
+    light_batch *const seen = &b->lights;
+    trace_ray shadow[COUNT];
+    bool dark[COUNT];
+    int count = 0;
     bare_batch batch;
     batch.count = 0;
-    for (int first = 0; first < b->hits; first += TRACE_PACKET) {
-        trace_ray shadow[TRACE_PACKET];
-        light_view view[TRACE_PACKET];
-        const trace_ray *rays[TRACE_PACKET] = { NULL };
-        uint32_t lit = 0;
-        for (int i = 0; i < TRACE_PACKET && first + i < b->hits; ++i) {
-            const int at = b->hit[first + i];
-            const vertex *const v = &b->v[at];
-            if (!light_see(l, v->hit.position, &view[i]) ||
-                !aim(v, l, &view[i], &b->random[at], DIM_LIGHTS + (uint32_t)index, &shadow[i]))
-                continue;
-            lit |= 1U << i;
-            rays[i] = l->unshadowed ? NULL : &shadow[i];
-        }
-        lit &= ~trace_occluded_packet(w->trace, rays);
-        for (int i = 0; i < TRACE_PACKET; ++i)
-            if (lit >> i & 1U)
-                add_point(&batch, &b->v[b->hit[first + i]], &view[i], &b->out[b->hit[first + i]]);
-    }
+    w->kernels->light(l, DIM_LIGHTS + (uint32_t)index, seen);
+    for (int i = 0; i < b->hits; ++i)
+        if (seen->seen >> i & 1U)
+            shadow[count++] =
+                (trace_ray){ .origin = v3(seen->origin[0][i], seen->origin[1][i], seen->origin[2][i]),
+                             .direction = v3(seen->direction[0][i], seen->direction[1][i], seen->direction[2][i]),
+                             .far = seen->far[i] };
+    trace_occluded_many(w->trace, shadow, count, dark);
+    count = 0;
+    for (int i = 0; i < b->hits; ++i)
+        if ((seen->seen >> i & 1U) && !dark[count++])
+            add_point(&batch, &b->v[b->hit[i]], seen, i, &b->out[b->hit[i]]);
     add_batch(&batch);
 }
 
-static void look_at_packet(const world *w, int first, uint32_t index, bare_block *b)
+static void leave(const world *w, uint32_t index, bare_block *b)
+{
+    b->camera.dimension = DIM_PIXEL;
+    b->camera.scale = 1.0 / w->footprint_side;
+    for (int i = 0; i < COUNT; ++i) {
+        b->random[i] = sampler_again(b->camera.pixel[i], index);
+        b->camera.reversed[i] = b->random[i].reversed;
+    }
+    w->kernels->camera(w->camera, &b->camera);
+    for (int i = 0; i < COUNT; ++i)
+        camera_batch_take(&b->camera, i, &b->v[i].ray, &b->v[i].step);
+}
+
+static void look_at_packet(const world *w, int first, bare_block *b)
 {
     const trace_ray *rays[TRACE_PACKET];
     trace_hit found[TRACE_PACKET];
-    for (int i = 0; i < TRACE_PACKET; ++i) {
-        const int at = first + i;
-        vertex *const v = &b->v[at];
-        b->random[at] = sampler_make(b->x[at], b->y[at], index, w->seed);
-        sampler_pair(&b->random[at], DIM_PIXEL, b->jitter[at]);
-        camera_ray(w->camera, b->x[at] + b->jitter[at][0], b->y[at] + b->jitter[at][1], &v->ray, &v->step);
-        v->step = differential_scale(&v->step, 1.0 / w->footprint_side);
-        rays[i] = &v->ray;
-    }
+    for (int i = 0; i < TRACE_PACKET; ++i)
+        rays[i] = &b->v[first + i].ray;
     const uint32_t met = trace_closest_packet(w->trace, rays, TRACE_BLEND_SOLID, found);
+    hit_task tasks[TRACE_PACKET];
+    int count = 0;
     for (int i = 0; i < TRACE_PACKET; ++i) {
-        const int at = first + i;
-        vertex *const v = &b->v[at];
-        b->out[at] = (pixel_sample){ .alpha = (float)(met >> i & 1U) };
+        vertex *const v = &b->v[first + i];
+        b->out[first + i] = (pixel_sample){ .alpha = (float)(met >> i & 1U) };
         if (!(met >> i & 1U))
             continue;
-        b->hit[b->hits++] = at;
+        b->hit[b->hits + count] = first + i;
         v->found = found[i];
+        tasks[count++] = (hit_task){ &v->ray, &v->step, &v->found, &v->hit, &v->hit_step };
+    }
+    hit_resolve_many(w->geometry, w->kernels, tasks, count);
+    for (int end = b->hits + count; b->hits < end; ++b->hits) {
+        const int at = b->hit[b->hits];
+        vertex *const v = &b->v[at];
         look(w, v);
         if (v->point.layers[0].counts)
-            tile(w, b->jitter[at], &v->point.layers[0].footprint);
+            tile(w, b->camera.jitter, at, &v->point.layers[0].footprint);
     }
 }
 
@@ -188,11 +197,16 @@ static void render_block(const world *w, int x, int y, bare_block *b, image *fil
         const int packet = i / TRACE_PACKET, entry = i % TRACE_PACKET;
         b->x[i] = x + packet % (SIDE / PACKET) * PACKET + entry % PACKET;
         b->y[i] = y + packet / (SIDE / PACKET) * PACKET + entry / PACKET;
+        b->camera.x[i] = b->x[i];
+        b->camera.y[i] = b->y[i];
+        b->camera.pixel[i] = sampler_make(b->x[i], b->y[i], 0U, w->seed).pixel;
     }
     for (int index = 0; index < w->spp; ++index) {
         b->hits = 0;
+        leave(w, (uint32_t)index, b);
         for (int first = 0; first < COUNT; first += TRACE_PACKET)
-            look_at_packet(w, first, (uint32_t)index, b);
+            look_at_packet(w, first, b);
+        look_at_lights(w, b);
         for (int i = 0; i < w->light_count; ++i)
             add_light(w, i, b);
         for (int i = 0; i < COUNT; ++i)

@@ -26,11 +26,12 @@ static void assert_derivative(vec3 derivative, vec3 before, vec3 after)
                  difference.y, difference.z);
 }
 
-static hit hit_at(const traced_scene *t, const camera *c, double x, double y, trace_ray *ray, differential *d)
+static hit hit_at(const traced_scene *t, const camera *c, double x, double y, trace_ray *ray, differential *d,
+                  hit_step *step)
 {
     hit h;
     camera_ray(c, x, y, ray, d);
-    assert_true(traced_hit(t, ray, &h));
+    assert_true(traced_hit_step(t, ray, d, &h, step));
     return h;
 }
 
@@ -44,8 +45,8 @@ static void compare_with_neighbours(const traced_scene *t, const camera *c, doub
 {
     trace_ray ray, ray_a, ray_b;
     differential d, unused;
-    const hit h = hit_at(t, c, x, y, &ray, &d);
-    const hit_step s = hit_differentiate(&h, &d, ray.direction);
+    hit_step s, unused_step;
+    const hit h = hit_at(t, c, x, y, &ray, &d, &s);
     const surface_step normal = hit_turn(&h, &s);
     const differential reflected = differential_reflect(&d, ray.direction, h.normal, &s.position, &normal);
     double dx[2], dy[2];
@@ -53,10 +54,10 @@ static void compare_with_neighbours(const traced_scene *t, const camera *c, doub
 
     for (int axis = 0; axis < 2; ++axis) {
         const double ex = axis == 0 ? STEP : 0.0, ey = axis == 1 ? STEP : 0.0;
-        const hit a = hit_at(t, c, x - ex, y - ey, &ray_a, &unused);
-        const hit b = hit_at(t, c, x + ex, y + ey, &ray_b, &unused);
-        assert_int_equal(a.corners.index[0], b.corners.index[0]); /* the same triangle */
-        assert_int_equal(a.corners.index[1], b.corners.index[1]);
+        const hit a = hit_at(t, c, x - ex, y - ey, &ray_a, &unused, &unused_step);
+        const hit b = hit_at(t, c, x + ex, y + ey, &ray_b, &unused, &unused_step);
+        assert_int_equal(a.corner[0], b.corner[0]); /* the same triangle */
+        assert_int_equal(a.corner[1], b.corner[1]);
         assert_derivative(axis == 0 ? s.position.dx : s.position.dy, a.position, b.position);
         assert_derivative(axis == 0 ? normal.dx : normal.dy, a.normal, b.normal);
         assert_derivative(axis == 0 ? reflected.direction_dx : reflected.direction_dy,
@@ -113,6 +114,23 @@ static void a_curved_mirror_matches_finite_differences(void **state)
     scene_free(&s);
 }
 
+/* What a step of the ray does on a square on the ground, in the triangle that Embree would have found. */
+static surface_step step_on_square(vec3 origin, vec3 direction, const differential *d, trace_hit found)
+{
+    const scene_material matte = scenes_matte(1.0F);
+    const trace_ray ray = { .origin = origin, .direction = direction };
+    scene s = scenes_empty();
+    traced_scene t;
+    hit h;
+    hit_step step;
+    scenes_add_instance(&s, scenes_add_square(&s, scenes_add_material(&s, &matte), 1.0F), NULL, 0);
+    traced_open(&t, &s, NULL);
+    hit_resolve(&t.geometry, &(hit_task){ &ray, d, &found, &h, &step });
+    traced_close(&t);
+    scene_free(&s);
+    return step.position;
+}
+
 /* Igehy's first example: a flat mirror leaves the spread of a ray as it is. */
 static void a_flat_mirror_keeps_the_spread(void **state)
 {
@@ -120,19 +138,24 @@ static void a_flat_mirror_keeps_the_spread(void **state)
     const vec3 direction = v3_normalize(v3(1.0, -2.0, 0.5)), up = v3(0.0, 1.0, 0.0), zero = v3(0.0, 0.0, 0.0);
     const vec3 across = v3_any_tangent(direction);
     const differential d = { zero, zero, v3_scale(across, 0.01), v3_scale(v3_cross(direction, across), 0.02) };
-    const surface_step point = differential_transfer(&d, direction, 3.0, up), still = { zero, zero };
+    const trace_hit middle = { .triangle = 0, .weights = { 0.3, 0.3 } };
+    const surface_step point = step_on_square(v3_scale(direction, -3.0), direction, &d, middle);
+    const surface_step still = { zero, zero };
     const differential r = differential_reflect(&d, direction, up, &point, &still);
     assert_true(fabs(v3_length(r.direction_dx) - 0.01) < 1e-15);
     assert_true(fabs(v3_length(r.direction_dy) - 0.02) < 1e-15);
     assert_true(fabs(v3_dot(point.dx, up)) < 1e-15 && fabs(v3_dot(point.dy, up)) < 1e-15);
+    /* Three metres of spread, along the ground. */
+    assert_true(fabs(v3_length(v3_reject(point.dx, direction)) - 0.03) < 1e-15);
 }
 
 static void a_plane_seen_edge_on_gives_finite_steps(void **state)
 {
     (void)state;
-    const vec3 direction = v3(1.0, 0.0, 0.0), up = v3(0.0, 1.0, 0.0), zero = v3(0.0, 0.0, 0.0);
+    const vec3 direction = v3(1.0, 0.0, 0.0), zero = v3(0.0, 0.0, 0.0);
     const differential d = { zero, zero, v3(0.0, 0.01, 0.0), v3(0.0, 0.0, 0.01) };
-    const surface_step s = differential_transfer(&d, direction, 3.0, up);
+    const trace_hit grazed = { .triangle = 0, .weights = { 0.3, 0.3 }, .distance = 3.0 };
+    const surface_step s = step_on_square(v3(-3.0, 0.0, 0.0), direction, &d, grazed);
     assert_true(isfinite(v3_length(s.dx)) && isfinite(v3_length(s.dy)));
 }
 

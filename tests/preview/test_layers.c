@@ -81,9 +81,9 @@ static void compare_at(const shader *with, const traced_scene *t, const camera *
     differential d;
     hit h;
     camera_ray(c, column + 0.4, row + 0.6, &ray, &d);
-    if (!traced_hit(t, &ray, &h))
+    hit_step step;
+    if (!traced_hit_step(t, &ray, &d, &h, &step))
         return;
-    const hit_step step = hit_differentiate(&h, &d, ray.direction);
     shade_point p;
     shade_prepare(with, &h, &step, v3_scale(ray.direction, -1.0), 0.3F, &p);
     assert_int_equal(p.layer_count, p.layers[1].weight > 0.0F ? 2 : 1);

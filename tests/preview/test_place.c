@@ -41,9 +41,9 @@ static void each_hit(const scene *s, void (*check)(const hit *h, const hit_step 
         hit h;
         const int column = i % 32, row = i / 32;
         camera_ray(&c, column + 0.4, row + 0.6, &ray, &d);
-        if (!traced_hit(&t, &ray, &h))
+        hit_step step;
+        if (!traced_hit_step(&t, &ray, &d, &h, &step))
             continue;
-        const hit_step step = hit_differentiate(&h, &d, ray.direction);
         check(&h, &step);
         ++hits;
     }

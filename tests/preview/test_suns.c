@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "area_truth.h"
-#include "preview/shade.h"
-#include "preview/vector.h"
+#define WIDE_LANES 1
+#include "preview/sight_lanes.h"
 #include "statistics.h"
 
 #define PI 3.14159265358979323846
@@ -52,8 +52,10 @@ static void a_sun_is_a_cap_only_where_that_shows_not(void **state)
         const area_truth whole = area_truth_of(&lobe, l->wo, &sun, 100),
                          middle = area_truth_of(&lobe, l->wo, &point, 4);
         const double error = fabs(middle.specular / middle.solid_angle * whole.solid_angle / whole.specular - 1.0);
-        const vec3 towards = v3((double)unit[0], (double)unit[1], (double)unit[2]);
-        if (shade_see(&p, &towards, sin(angle)) == SHADE_SHAPE) {
+        wide_mask is_lit = 0, is_shape_seen = 0;
+        const wide_layer layer = sight_layer_of(&p.layers[0]);
+        layer_sees(&layer, w3_splat(v3_from(unit)), sin(angle), &is_lit, &is_shape_seen);
+        if (wide_any(is_shape_seen)) {
             ++shapes;
             spared = fmax(spared, error);
             continue;

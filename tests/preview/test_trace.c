@@ -154,6 +154,18 @@ static void a_blended_surface_stops_its_share_of_random_rays(void **state)
 
 /* ---- packets ---- */
 
+/* Of the same triangle; Embree says where in single precision, and in a packet by other operations. */
+static void assert_same_place(const traced_scene *t, const trace_ray *ray, trace_hit *a, trace_hit *b)
+{
+    const differential still = { { 0.0, 0.0, 0.0 } };
+    hit_step steps[2];
+    hit hits[2];
+    const hit_task tasks[2] = { { ray, &still, a, &hits[0], &steps[0] }, { ray, &still, b, &hits[1], &steps[1] } };
+    for (int i = 0; i < 2; ++i)
+        hit_resolve(&t->geometry, &tasks[i]);
+    assert_memory_equal(a->weights, b->weights, sizeof a->weights);
+}
+
 /* Opaque, masked and blended, all in the way of each other; rays from everywhere, of which every fifth is missing. */
 static void a_packet_says_of_every_ray_what_it_says_alone(void **state)
 {
@@ -187,7 +199,7 @@ static void a_packet_says_of_every_ray_what_it_says_alone(void **state)
             assert_int_equal(met >> i & 1U, is_there && trace_closest(t.trace, &rays[i], TRACE_BLEND_RANDOM, &alone));
             assert_int_equal(dark >> i & 1U, is_there && trace_occluded(t.trace, &rays[i]));
             if (met >> i & 1U)
-                assert_memory_equal(&alone.weights, &found[i].weights, sizeof alone.weights);
+                assert_same_place(&t, &rays[i], &alone, &found[i]);
             hits += (int)(met >> i & 1U);
             shadows += (int)(dark >> i & 1U);
         }

@@ -41,11 +41,19 @@ trace_ray traced_ray(vec3 from, vec3 through)
     return (trace_ray){ .origin = from, .direction = v3_normalize(v3_sub(through, from)), .far = (double)INFINITY };
 }
 
-bool traced_hit(const traced_scene *t, const trace_ray *ray, hit *out)
+bool traced_hit_step(const traced_scene *t, const trace_ray *ray, const differential *d, hit *out, hit_step *step)
 {
     trace_hit found;
+    const hit_task task = { ray, d, &found, out, step };
     if (!trace_closest(t->trace, ray, TRACE_BLEND_SOLID, &found))
         return false;
-    hit_resolve(&t->geometry, ray, &found, out);
+    hit_resolve(&t->geometry, &task);
     return true;
+}
+
+bool traced_hit(const traced_scene *t, const trace_ray *ray, hit *out)
+{
+    const differential still = { { 0.0, 0.0, 0.0 } };
+    hit_step step;
+    return traced_hit_step(t, ray, &still, out, &step);
 }

@@ -18,5 +18,7 @@ void traced_close(traced_scene *t);
 trace_ray traced_ray(vec3 from, vec3 through);
 /* False: nothing is hit. */
 bool traced_hit(const traced_scene *t, const trace_ray *ray, hit *out);
+/* The same, and what a step of the ray does on the surface. */
+bool traced_hit_step(const traced_scene *t, const trace_ray *ray, const differential *d, hit *out, hit_step *step);
 
 #endif
