@@ -112,12 +112,12 @@ static void sweep_cameras(sweep *s)
         camera_ray(&c, 640.0 * at[0], 360.0 * at[1], &ray, &d);
         const vec3 normal = unit(s);
         const double distance = fabs(place(s));
-        const surface_step step = differential_transfer(&d, ray.direction, distance, normal);
+        surface_step step = { .dx = v3_scale(unit(s), distance) };
+        step.dy = v3_scale(unit(s), distance);
         surface_step turn = { .dx = unit(s) };
         turn.dy = v3_scale(unit(s), 0.5);
         differential out = differential_reflect(&d, ray.direction, normal, &step, &turn);
         give_vectors(s, "ray", &ray.origin, 2);
-        give_vectors(s, "step on a surface", &step.dx, 2);
         give_vectors(s, "reflected differential", &out.origin_dx, 4);
         const vec3 drawn = unit(s);
         differential_widen(&out, drawn, random_uniform(&s->random));
