@@ -20,6 +20,7 @@ std::vector<std::string> near(const std::string &wanted, const std::vector<std::
     }
     std::stable_sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     std::vector<std::string> sorted;
+    sorted.reserve(found.size());
     for (const auto &[distance, name] : found)
         sorted.push_back(name);
     return sorted;

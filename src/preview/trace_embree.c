@@ -312,8 +312,11 @@ uint32_t trace_closest_packet(const trace_scene *t, const trace_ray *const rays[
      */
     if (blending == TRACE_BLEND_SOLID)
         q.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (!set_packet(rays, &found.ray, valid))
+    if (!set_packet(rays, &found.ray, valid)) {
+        for (int i = 0; i < TRACE_PACKET; ++i)
+            hits[i].through_back = false;
         return 0;
+    }
     for (int i = 0; i < TRACE_PACKET; ++i)
         found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect16(valid, t->top, &q.context, &found);
