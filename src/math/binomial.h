@@ -17,7 +17,7 @@
 #include "math/elementary.h"
 
 /* Below this mean the survival function is walked, above it a Cornish-Fisher expansion of the normal quantile is used:
- * its mean is right to 7e-5 there, its variance to 7e-4, its distribution to 6e-4. Another one may be given before: the
+ * its mean is right to 8e-5 there, its variance to 6e-4, its distribution to 5e-4. Another one may be given before: the
  * study of the law asks what it costs. */
 #if !defined(BINOMIAL_WALK_MEAN)
 #define BINOMIAL_WALK_MEAN 5.0F

@@ -66,8 +66,9 @@ static inline void light_see_wide(const light *l, wide3 position, wide_view *v)
     }
     const wide zero = wide_splat(0.0), one = wide_splat(1.0);
     const wide3 towards = w3_sub(w3_splat(l->position), position);
-    v->distance = w3_length(towards);
-    v->is_seen = wide_less(zero, v->distance);
+    const wide length = w3_length(towards);
+    v->is_seen = wide_less(zero, length);
+    v->distance = wide_choose(v->is_seen, length, one); /* in the light itself nothing is divided by nothing */
     v->wi = w3_scale(towards, 1.0 / v->distance);
     if (light_is_area(l)) {
         v->is_seen = v->is_seen & wide_less(zero, w3_dot(towards, w3_splat(l->axis)));

@@ -111,10 +111,9 @@ static void sweep_cameras(sweep *s)
         uniforms(s, at);
         camera_ray(&c, 640.0 * at[0], 360.0 * at[1], &ray, &d);
         const vec3 normal = unit(s);
-        const double distance = fabs(place(s));
-        surface_step step = { .dx = v3_scale(unit(s), distance) };
-        step.dy = v3_scale(unit(s), distance);
+        surface_step step = { .dx = v3_scale(unit(s), 1e-3) };
         surface_step turn = { .dx = unit(s) };
+        step.dy = v3_scale(normal, 1e-3 * place(s));
         turn.dy = v3_scale(unit(s), 0.5);
         differential out = differential_reflect(&d, ray.direction, normal, &step, &turn);
         give_vectors(s, "ray", &ray.origin, 2);

@@ -14,5 +14,5 @@ plot [0.5:2e9] [1 - far:1 + far] \
     table index 1 using ($4 * 0.95):5:6 with yerrorbars linetype 2 title 'one in 100', \
     table index 2 using ($4 * 1.05):5:6 with yerrorbars linetype 3 title 'one in 10', \
     table index 3 using ($4 * 1.18):5:6 with yerrorbars linetype 4 title 'one in 2', \
-    1.005 with lines linecolor rgb '#D55E00' dashtype 2 title 'bound', \
+    1.005 with lines linecolor rgb '#D55E00' dashtype 2 title (far > 0.01 ? 'bound of those with short bars' : 'bound'), \
     0.995 with lines linecolor rgb '#D55E00' dashtype 2 notitle
