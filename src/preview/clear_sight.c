@@ -27,8 +27,14 @@ typedef struct points {
     int count;
 } points;
 
+typedef struct box {
+    vec3 low, high;
+} box;
+
 typedef struct proof {
     const geometry *geometry;
+    box *mesh;              /* around each mesh, in its own space */
+    box *part;              /* around each instance, in the world */
     double slack, diameter; /* of the scene, m */
     long long work;         /* that is left */
 } proof;
@@ -86,34 +92,50 @@ static void add(points *p, vec3 at)
     p->at[p->count++] = at;
 }
 
-/* Corner i of a box. */
-static vec3 corner_of(vec3 low, vec3 high, int i)
+static const box nothing = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+
+static vec3 corner_of(const box *b, int i)
 {
-    return v3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z);
+    return v3((i & 1) != 0 ? b->high.x : b->low.x, (i & 2) != 0 ? b->high.y : b->low.y,
+              (i & 4) != 0 ? b->high.z : b->low.z);
 }
 
-static void widen(vec3 *low, vec3 *high, vec3 at)
+static void widen(box *b, vec3 at)
 {
-    *low = v3(smaller_of(low->x, at.x), smaller_of(low->y, at.y), smaller_of(low->z, at.z));
-    *high = v3(larger_of(high->x, at.x), larger_of(high->y, at.y), larger_of(high->z, at.z));
+    b->low = v3(smaller_of(b->low.x, at.x), smaller_of(b->low.y, at.y), smaller_of(b->low.z, at.z));
+    b->high = v3(larger_of(b->high.x, at.x), larger_of(b->high.y, at.y), larger_of(b->high.z, at.z));
+}
+
+static box box_around(const points *p)
+{
+    box b = nothing;
+    for (int i = 0; i < p->count; ++i)
+        widen(&b, p->at[i]);
+    return b;
+}
+
+/* The axes of the world before any other: most of a scene is far from most rays. */
+static bool are_boxes_apart(proof *p, const box *a, const box *b)
+{
+    const vec3 up = v3_sub(b->low, a->high), down = v3_sub(a->low, b->high);
+    p->work--;
+    return larger_of(larger_of(larger_of(up.x, up.y), larger_of(up.z, down.x)), larger_of(down.y, down.z)) >= -p->slack;
 }
 
 /* The vertices, or a box around them. */
-static points points_of(const geometry *g, int instance)
+static points points_of(const proof *p, int instance)
 {
-    const scene_mesh *const m = mesh_of(g, instance);
-    const double *const to_world = g->instances[instance].to_world;
-    points p = { .count = 0 };
-    vec3 low = v3_from(m->position), high = low;
-    for (uint32_t i = 0; i < m->vertex_count; ++i) {
-        const vec3 at = v3_from(&m->position[3U * (size_t)i]);
-        if (m->vertex_count <= MOST_VERTICES)
-            add(&p, m4_point(to_world, at));
-        widen(&low, &high, at);
-    }
-    for (int i = 0; m->vertex_count > MOST_VERTICES && i < BOX_CORNERS; ++i)
-        add(&p, m4_point(to_world, corner_of(low, high, i)));
-    return p;
+    const scene_instance *const from = &p->geometry->scene->instances[instance];
+    const scene_mesh *const m = &p->geometry->scene->meshes[from->mesh];
+    const double *const to_world = p->geometry->instances[instance].to_world;
+    points found = { .count = 0 };
+    if (m->vertex_count > MOST_VERTICES)
+        for (int i = 0; i < BOX_CORNERS; ++i)
+            add(&found, m4_point(to_world, corner_of(&p->mesh[from->mesh], i)));
+    else
+        for (uint32_t i = 0; i < m->vertex_count; ++i)
+            add(&found, m4_point(to_world, v3_from(&m->position[3U * (size_t)i])));
+    return found;
 }
 
 /* Whether a triangle of a mesh has other vertices above it, or below. One that is no wider than a rounding, as at the
@@ -162,14 +184,12 @@ static bool add_sun(const proof *p, const light *l, points *to)
     if (!(l->cosine > 0.5))
         return false;
     const double around = far * sine / l->cosine;
-    vec3 low = to->at[0], high = low;
-    for (int i = 0; i < to->count; ++i)
-        widen(&low, &high, to->at[i]);
+    box b = box_around(to);
     const vec3 off = v3(around, around, around);
-    low = v3_mad(v3_sub(low, off), l->axis, far);
-    high = v3_mad(v3_add(high, off), l->axis, far);
+    b.low = v3_mad(v3_sub(b.low, off), l->axis, far);
+    b.high = v3_mad(v3_add(b.high, off), l->axis, far);
     for (int i = 0; i < BOX_CORNERS; ++i)
-        add(to, corner_of(low, high, i));
+        add(to, corner_of(&b, i));
     return true;
 }
 
@@ -181,7 +201,8 @@ static bool add_light(const proof *p, const light *l, points *to)
     for (int i = 0; i < BOX_CORNERS; ++i) {
         if (!light_is_area(l)) {
             const vec3 around = v3(l->radius, l->radius, l->radius);
-            add(to, corner_of(v3_sub(l->position, around), v3_add(l->position, around), i));
+            const box b = { v3_sub(l->position, around), v3_add(l->position, around) };
+            add(to, corner_of(&b, i));
         } else if (i < 4) {
             const vec3 x = v3_scale(l->half_x, (i & 1) != 0 ? 1.0 : -1.0), y = v3_scale(l->half_y, i < 2 ? 1.0 : -1.0);
             add(to, v3_add(l->position, v3_add(x, y)));
@@ -204,10 +225,12 @@ static bool is_triangle_apart(proof *p, const points *rays, int instance, uint32
            is_apart_somehow(p, rays, &corners);
 }
 
-/* Whether a part stands in the way of no ray. */
-static bool is_out_of_the_way(proof *p, const points *rays, int instance)
+/* Whether a part stands in the way of no ray. around: all of them. */
+static bool is_out_of_the_way(proof *p, const points *rays, const box *around, int instance)
 {
-    const points all = points_of(p->geometry, instance);
+    if (are_boxes_apart(p, around, &p->part[instance]))
+        return true;
+    const points all = points_of(p, instance);
     const uint32_t triangles = mesh_of(p->geometry, instance)->triangle_count;
     if (is_apart_somehow(p, rays, &all))
         return true;
@@ -225,10 +248,11 @@ static bool is_there(const geometry *g, int instance)
 
 static bool sees_all_of(proof *p, int instance, const light *l)
 {
-    points rays = points_of(p->geometry, instance);
+    points rays = points_of(p, instance);
     bool sees = add_light(p, l, &rays);
+    const box around = box_around(&rays);
     for (int i = 0; sees && i < p->geometry->scene->instance_count; ++i)
-        sees = i == instance || !is_there(p->geometry, i) || is_out_of_the_way(p, &rays, i);
+        sees = p->work > 0 && (i == instance || !is_there(p->geometry, i) || is_out_of_the_way(p, &rays, &around, i));
     return sees;
 }
 
@@ -250,33 +274,55 @@ static void prove_part(proof *p, int instance, int *own, const light *lights, in
     }
 }
 
-static proof begin(const geometry *g)
+/* Boxes around everything. */
+static void begin(proof *p)
 {
-    vec3 low = v3(INFINITY, INFINITY, INFINITY), high = v3_scale(low, -1.0);
-    for (int i = 0; i < g->scene->instance_count; ++i) {
-        const points p = is_there(g, i) ? points_of(g, i) : (points){ .count = 0 };
-        for (int k = 0; k < p.count; ++k)
-            widen(&low, &high, p.at[k]);
+    const scene *const s = p->geometry->scene;
+    box all = nothing;
+    for (int i = 0; i < s->mesh_count; ++i) {
+        p->mesh[i] = nothing;
+        for (uint32_t k = 0; k < s->meshes[i].vertex_count; ++k)
+            widen(&p->mesh[i], v3_from(&s->meshes[i].position[3U * (size_t)k]));
     }
-    return (proof){ g, larger_of(v3_max_abs(low), v3_max_abs(high)) * SLACK, v3_length(v3_sub(high, low)), MOST_WORK };
+    for (int i = 0; i < s->instance_count; ++i) {
+        const points here = is_there(p->geometry, i) ? points_of(p, i) : (points){ .count = 0 };
+        p->part[i] = box_around(&here);
+        for (int k = 0; k < here.count; ++k)
+            widen(&all, here.at[k]);
+    }
+    p->slack = larger_of(v3_max_abs(all.low), v3_max_abs(all.high)) * SLACK;
+    p->diameter = v3_length(v3_sub(all.high, all.low));
 }
 
-bool clear_sight_find(const geometry *g, const light *lights, int light_count, uint8_t *table, report *r)
+static void prove_all(proof *p, const light *lights, int light_count, int *own, uint8_t *table)
 {
-    const scene *const s = g->scene;
-    proof p = begin(g);
-    int *const own = calloc((size_t)s->mesh_count + 1U, sizeof *own);
-    if (own == NULL)
-        return report_error(r, "no memory for what %d meshes hide of themselves", s->mesh_count);
+    const scene *const s = p->geometry->scene;
+    begin(p);
     for (int i = 0; i < s->mesh_count; ++i)
         own[i] = -1;
     for (int i = 0; i < s->material_count * light_count; ++i)
         table[i] = CLEAR_BOTH_SIDES;
     for (int i = 0; i < s->instance_count; ++i)
-        if (is_there(g, i))
-            prove_part(&p, i, own, lights, light_count, &table[(size_t)mesh_of(g, i)->material * (size_t)light_count]);
+        if (is_there(p->geometry, i))
+            prove_part(p, i, own, lights, light_count,
+                       &table[(size_t)mesh_of(p->geometry, i)->material * (size_t)light_count]);
+}
+
+bool clear_sight_find(const geometry *g, const light *lights, int light_count, uint8_t *table, report *r)
+{
+    const size_t meshes = (size_t)g->scene->mesh_count + 1U, parts = (size_t)g->scene->instance_count + 1U;
+    box *const boxes = malloc((meshes + parts) * sizeof *boxes);
+    int *const own = malloc(meshes * sizeof *own);
+    const bool is_room = boxes != NULL && own != NULL;
+    if (is_room) {
+        proof p = { .geometry = g, .mesh = boxes, .part = boxes + meshes, .work = MOST_WORK };
+        prove_all(&p, lights, light_count, own, table);
+    } else {
+        report_error(r, "no memory for the shadows of %d parts", g->scene->instance_count);
+    }
+    free(boxes);
     free(own);
-    return true;
+    return is_room;
 }
 
 /* ---- at a point ---- */
