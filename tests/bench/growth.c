@@ -136,6 +136,9 @@ static void count_small(void)
 {
     for (int k = 0; k < growth_case_count; ++k) {
         const growth_case *const c = &growth_cases[k];
+        /* What is done once, such as the loading of what reads pictures, is no growth. */
+        c->prepare(c->small[0]);
+        c->run();
         for (int i = 0; i < GROWTH_MOST_SMALL && c->small[i] > 0.0; ++i) {
             c->prepare(c->small[i]);
             growth_run(c);
