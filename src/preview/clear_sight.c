@@ -92,7 +92,8 @@ static void add(points *p, vec3 at)
     p->at[p->count++] = at;
 }
 
-static const box nothing = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+#define FAR ((double)INFINITY)
+static const box nothing = { { FAR, FAR, FAR }, { -FAR, -FAR, -FAR } };
 
 static vec3 corner_of(const box *b, int i)
 {
