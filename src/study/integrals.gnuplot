@@ -8,8 +8,8 @@ set key bottom left Left reverse
 set bars 0.6
 low(e, b) = e - b > e / 10 ? e - b : e / 10
 few(n) = strstrt(n, 'random') ? n : ''
-near(n) = n eq 'grid 2 x 2' ? n : ''
-else(n) = strstrt(n, 'random') || n eq 'grid 2 x 2' ? '' : n
+near(n) = n eq 'grid 2 x 2' || n eq 'grid 8 x 8' ? n : ''
+else(n) = strstrt(n, 'random') || near(n) ne '' ? '' : n
 plot [60:1e5] [1e-8:100] \
     '< grep ",1$" integrals_front.csv' using 2:3 with lines linetype 1 linewidth 1 dashtype 2 notitle, \
     '< grep ",1$" integrals_worst_front.csv' using 2:3 with lines linetype 2 linewidth 1 dashtype 2 notitle, \
