@@ -2,8 +2,9 @@
  *
  *     build/release/bench/costs > src/plan/cost_table.c
  *
- * Each number is the least CPU time of several rounds, which a busy machine disturbs least. What a renderer does to a
- * sample is the difference of two pictures' times, over samples; set-up cancels in pictures of few and of many samples.
+ * Each number is the least CPU time of several rounds, which a busy machine disturbs least; in a round everything takes
+ * its turn, so that a change of the processor's pace falls on all. What a renderer does to a sample is the difference
+ * of two pictures' times, over samples; set-up cancels in pictures of few and of many samples.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 #include "scenes.h"
 #include "statistics.h"
 
-enum { ROUNDS = 9, CALLS = 1500, SIDE = 48, FEW = 4, MANY = 16 };
+enum { ROUNDS = 9, CALLS = 1500, FACETS = 100, SIDE = 48, FEW = 4, MANY = 16 };
 
 static double cost[PLAN_COST_COUNT];
 static double ltc_error[2], ltc_flips[2];
@@ -50,75 +51,121 @@ static void stop(const char *what)
 
 /* ---- calls of the library ---- */
 
-/* Pixels of 100 facets, half vectors within the lobe. */
-static void evaluate(const glint_material *m, const glint_area_light *area, double *sink)
+/* Pixels of 100 facets, half vectors within the lobe, in a batch as the renderer has them. */
+typedef struct points {
+    double u[CALLS], v[CALLS];
+    float dudx[CALLS], dudy[CALLS], dvdx[CALLS], dvdy[CALLS], wo[3][CALLS], wi[3][CALLS], solid_angle_sr[CALLS];
+    uint32_t draw[CALLS];
+    glint_surface surface[CALLS];
+    glint_area_light area[CALLS];
+    glint_value value[CALLS];
+} points;
+
+static void place(points *p, const glint_material_options *o, const glint_area_light *area)
 {
     uint64_t random = 1;
     for (int i = 0; i < CALLS; i++) {
         const float x = (float)random_between(&random, -0.4, 0.4), y = (float)random_between(&random, -0.4, 0.4);
         const float wo[3] = { x, y, sqrtf(1.0F - x * x - y * y) }, wi[3] = { -y, x, wo[2] };
-        const glint_footprint f = { .u = random_between(&random, -1.0, 1.0),
-                                    .v = random_between(&random, -1.0, 1.0),
-                                    .dudx = 1e-3F,
-                                    .dvdx = 2e-4F,
-                                    .dvdy = 1e-3F,
-                                    .draw = (uint32_t)random_bits(&random) };
-        const glint_light light = { GLINT_LIGHT_CAP, 1e-2F };
-        glint_value value;
+        for (int c = 0; c < 3; c++) {
+            p->wo[c][i] = wo[c];
+            p->wi[c][i] = wi[c];
+        }
+        p->u[i] = random_between(&random, -1.0, 1.0);
+        p->v[i] = random_between(&random, -1.0, 1.0);
+        p->dudx[i] = p->dvdy[i] = 1e-3F;
+        p->dudy[i] = 0.0F;
+        p->dvdx[i] = 2e-4F;
+        p->solid_angle_sr[i] = 1e-2F;
+        p->draw[i] = (uint32_t)random_bits(&random);
+        p->surface[i] = o->surface;
         if (area)
-            glint_eval_area(m, NULL, &f, wo, area, &value);
-        else
-            glint_eval_value(m, NULL, &f, wo, wi, &light, &value);
-        *sink += (double)value.rgb[0];
+            p->area[i] = *area;
     }
 }
 
-static double time_of(const glint_material_options *o, const glint_area_light *area)
+typedef struct contestant {
+    plan_cost of;
+    glint_material_options options;
+    const glint_area_light *area;
+    glint_material *material;
+    double least_s;
+} contestant;
+
+static void run(contestant *c)
 {
-    glint_material *m;
-    char message[256];
-    double least = HUGE_VAL, sink = 0.0;
-    if (glint_material_create(o, &m, message, sizeof message) != GLINT_OK)
-        stop(message);
-    for (int r = 0; r < ROUNDS; r++) {
-        const double start = race_now();
-        evaluate(m, area, &sink);
-        least = fmin(least, race_now() - start);
+    static points p;
+    place(&p, &c->options, c->area);
+    glint_batch b = GLINT_BATCH_INIT;
+    b.count = CALLS;
+    b.u = p.u;
+    b.v = p.v;
+    b.dudx = p.dudx;
+    b.dudy = p.dudy;
+    b.dvdx = p.dvdx;
+    b.dvdy = p.dvdy;
+    b.solid_angle_sr = p.solid_angle_sr;
+    b.surfaces = p.surface;
+    b.area_lights = c->area ? p.area : NULL;
+    b.draw = p.draw;
+    b.values = p.value;
+    for (int k = 0; k < 3; k++) {
+        b.wo[k] = p.wo[k];
+        b.wi[k] = p.wi[k];
     }
-    glint_material_destroy(m);
-    return sink >= 0.0 ? 1e9 * least / CALLS : 0.0;
+    const double start = race_now();
+    if (glint_eval_batch(c->material, &b) != GLINT_OK)
+        stop("no batch");
+    c->least_s = fmin(c->least_s, race_now() - start);
 }
 
+/* One that both integrals take points of, and one that is too large for the lobe. */
 static const glint_area_light window = { .kind = GLINT_AREA_RECTANGLE,
                                          .two_sided = 1,
                                          .center = { 0.3F, 0.2F, 1.0F },
                                          .half_x = { 0.3F, 0.0F, 0.0F },
                                          .half_y = { 0.0F, 0.2F, 0.0F } };
 
+static const glint_area_light wall = { .kind = GLINT_AREA_RECTANGLE,
+                                       .two_sided = 1,
+                                       .center = { 0.3F, 0.2F, 1.0F },
+                                       .half_x = { 1.0F, 0.0F, 0.0F },
+                                       .half_y = { 0.0F, 0.7F, 0.0F } };
+
+static contestant *enter(contestant *c, plan_cost of, glint_model model, const glint_area_light *area)
+{
+    *c = (contestant){ of, GLINT_MATERIAL_OPTIONS_INIT, area, NULL, HUGE_VAL };
+    c->options.model = model;
+    return c;
+}
+
 static void measure_models(void)
 {
-    glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
-    cost[PLAN_COST_COUNTED] = time_of(&o, NULL);
-    o.smooth_deviation = 1e5F;
-    cost[PLAN_COST_FADED] = time_of(&o, NULL);
-    o.smooth_deviation = 0.0F;
-    o.draw_deviation = 1e5F;
-    cost[PLAN_COST_DRAWN] = time_of(&o, NULL);
-    o.draw_deviation = 0.0F;
-    o.color_variation = 0.5F;
-    cost[PLAN_COST_COUNTED_COLORS] = time_of(&o, NULL);
-    o.color_variation = 0.0F;
-    o.model = GLINT_MODEL_SMOOTH;
-    cost[PLAN_COST_SMOOTH] = time_of(&o, NULL);
-    cost[PLAN_COST_LTC] = time_of(&o, &window);
-    o.area_light_method = GLINT_AREA_LIGHT_EXACT;
-    cost[PLAN_COST_QUADRATURE] = time_of(&o, &window);
-    o.model = GLINT_MODEL_DICTIONARY;
-    cost[PLAN_COST_DICTIONARY] = time_of(&o, NULL);
-    o.model = GLINT_MODEL_EXPLICIT;
-    cost[PLAN_COST_EXPLICIT_FACET] = time_of(&o, NULL) / 100.0;
-    o.model = GLINT_MODEL_EXAMPLE;
-    cost[PLAN_COST_EXAMPLE] = time_of(&o, NULL);
+    static contestant all[PLAN_COST_COUNT];
+    contestant *c = all;
+    enter(c++, PLAN_COST_COUNTED, GLINT_MODEL_COUNTING, NULL);
+    enter(c++, PLAN_COST_FADED, GLINT_MODEL_COUNTING, NULL)->options.smooth_deviation = 1e5F;
+    enter(c++, PLAN_COST_DRAWN, GLINT_MODEL_COUNTING, NULL)->options.draw_deviation = 1e5F;
+    enter(c++, PLAN_COST_COUNTED_COLORS, GLINT_MODEL_COUNTING, NULL)->options.color_variation = 0.5F;
+    enter(c++, PLAN_COST_SMOOTH, GLINT_MODEL_SMOOTH, NULL);
+    enter(c++, PLAN_COST_LTC, GLINT_MODEL_SMOOTH, &window);
+    enter(c++, PLAN_COST_QUADRATURE, GLINT_MODEL_SMOOTH, &wall)->options.area_light_method = GLINT_AREA_LIGHT_EXACT;
+    enter(c++, PLAN_COST_DICTIONARY, GLINT_MODEL_DICTIONARY, NULL);
+    enter(c++, PLAN_COST_EXPLICIT_FACET, GLINT_MODEL_EXPLICIT, NULL);
+    enter(c++, PLAN_COST_EXAMPLE, GLINT_MODEL_EXAMPLE, NULL);
+    const contestant *const end = c;
+    char message[256];
+    for (c = all; c < end; c++)
+        if (glint_material_create(&c->options, &c->material, message, sizeof message) != GLINT_OK)
+            stop(message);
+    for (int r = 0; r < ROUNDS; r++)
+        for (c = all; c < end; c++)
+            run(c);
+    for (c = all; c < end; c++) {
+        cost[c->of] = 1e9 * c->least_s / CALLS;
+        glint_material_destroy(c->material);
+    }
+    cost[PLAN_COST_EXPLICIT_FACET] /= FACETS;
 }
 
 /* Lights from a tenth of a steradian up, at all angles; relative to the light that there is, and to the facets that are
@@ -211,46 +258,62 @@ static double render_s(const scene *s, const preview_options *from, int spp, pre
     return seconds;
 }
 
-/* ns a sample; *bounce_rays: of a sample. */
-static double sample_ns(const setting *c, double *bounce_rays)
+enum { BARE, DIRECT, BOUNCED, LIT, TEXTURED, BUMPY, MASKED, COATED, STRETCHED, PICTURES };
+
+static const setting settings[PICTURES] = {
+    [DIRECT] = { .ball = true, .lit = true },
+    [BOUNCED] = { .ball = true, .lit = true, .bounces = 1 },
+    [LIT] = { .lit = true },
+    [TEXTURED] = { .textured = true },
+    [BUMPY] = { .bumpy = true },
+    [MASKED] = { .masked = true },
+    [COATED] = { .lit = true, .coated = true },
+    [STRETCHED] = { .lit = true, .stretched = true },
+};
+
+/* ns a sample; *bounce_rays: those of a sample of BOUNCED. */
+static void measure_pictures(double ns[PICTURES], double *bounce_rays)
 {
     static const float eye[3] = { 0.0F, 1.0F, 1e-4F }, target[3] = { 0.0F, 0.0F, 0.0F };
     const scene_camera camera = scenes_camera(SCENE_ORTHOGRAPHIC, eye, target, 0.9F);
-    scene s = make_scene(c);
-    preview_options o = PREVIEW_OPTIONS_INIT;
-    preview_statistics few, many;
-    o.width = o.height = SIDE;
-    o.bounces = c->bounces;
-    o.threads = 1;
-    o.camera = &camera;
-    double least_few = HUGE_VAL, least_many = HUGE_VAL;
-    for (int r = 0; r < ROUNDS; r++) {
-        least_few = fmin(least_few, render_s(&s, &o, FEW, &few));
-        least_many = fmin(least_many, render_s(&s, &o, MANY, &many));
-    }
-    scene_free(&s);
     const double samples = (double)SIDE * SIDE * (MANY - FEW);
-    if (bounce_rays)
-        *bounce_rays = (double)(many.bounce_rays - few.bounce_rays) / samples;
-    return 1e9 * (least_many - least_few) / samples;
+    double few_s[PICTURES], many_s[PICTURES];
+    scene scenes[PICTURES];
+    for (int i = 0; i < PICTURES; i++) {
+        scenes[i] = make_scene(&settings[i]);
+        few_s[i] = many_s[i] = HUGE_VAL;
+    }
+    for (int r = 0; r < ROUNDS; r++)
+        for (int i = 0; i < PICTURES; i++) {
+            preview_options o = PREVIEW_OPTIONS_INIT;
+            preview_statistics few, many;
+            o.width = o.height = SIDE;
+            o.bounces = settings[i].bounces;
+            o.threads = 1;
+            o.camera = &camera;
+            few_s[i] = fmin(few_s[i], render_s(&scenes[i], &o, FEW, &few));
+            many_s[i] = fmin(many_s[i], render_s(&scenes[i], &o, MANY, &many));
+            if (i == BOUNCED)
+                *bounce_rays = (double)(many.bounce_rays - few.bounce_rays) / samples;
+        }
+    for (int i = 0; i < PICTURES; i++) {
+        ns[i] = 1e9 * (many_s[i] - few_s[i]) / samples;
+        scene_free(&scenes[i]);
+    }
 }
 
 static void measure_samples(void)
 {
-    double rays;
-    const double bare = sample_ns(&(setting){ 0 }, NULL);
-    const double direct = sample_ns(&(setting){ .ball = true, .lit = true }, NULL);
-    const double bounced = sample_ns(&(setting){ .ball = true, .lit = true, .bounces = 1 }, &rays);
-    const double lit = sample_ns(&(setting){ .lit = true }, NULL);
-    const double textured = sample_ns(&(setting){ .textured = true }, NULL);
-    cost[PLAN_COST_CAMERA_RAY] = bare;
-    cost[PLAN_COST_BOUNCE_RAY] = (bounced - direct) / rays;
-    cost[PLAN_COST_SHADOW_RAY] = lit - bare - cost[PLAN_COST_SMOOTH];
-    cost[PLAN_COST_TEXTURE] = textured - bare;
-    cost[PLAN_COST_NORMAL_MAP] = sample_ns(&(setting){ .bumpy = true }, NULL) - bare;
-    cost[PLAN_COST_ALPHA] = sample_ns(&(setting){ .masked = true }, NULL) - textured;
-    cost[PLAN_COST_COAT] = sample_ns(&(setting){ .lit = true, .coated = true }, NULL) - lit;
-    cost[PLAN_COST_ANISOTROPY] = sample_ns(&(setting){ .lit = true, .stretched = true }, NULL) - lit;
+    double ns[PICTURES], rays;
+    measure_pictures(ns, &rays);
+    cost[PLAN_COST_CAMERA_RAY] = ns[BARE];
+    cost[PLAN_COST_BOUNCE_RAY] = (ns[BOUNCED] - ns[DIRECT]) / rays;
+    cost[PLAN_COST_SHADOW_RAY] = ns[LIT] - ns[BARE] - cost[PLAN_COST_SMOOTH];
+    cost[PLAN_COST_TEXTURE] = ns[TEXTURED] - ns[BARE];
+    cost[PLAN_COST_NORMAL_MAP] = ns[BUMPY] - ns[BARE];
+    cost[PLAN_COST_ALPHA] = ns[MASKED] - ns[TEXTURED];
+    cost[PLAN_COST_COAT] = ns[COATED] - ns[LIT];
+    cost[PLAN_COST_ANISOTROPY] = ns[STRETCHED] - ns[LIT];
 }
 
 int main(void)
