@@ -31,7 +31,7 @@ plot [1:1e3] [0:450] of('footprint') using 2:($3 / 4096 * 1e9) with linespoints 
 set logscale y
 set title 'MiB by what grows'
 set xtics 1, 100
-plot [1:1e8] [30:20000] of('resolution') using 2:4 with lines linetype 1 title 'pixels', of('lights') using 2:4 with lines linetype 2 title 'lights', \
+plot [1:1e8] [5:20000] of('resolution') using 2:4 with lines linetype 1 title 'pixels', of('lights') using 2:4 with lines linetype 2 title 'lights', \
     of('triangles') using 2:4 with lines linetype 3 title 'triangles', of('textures') using 2:4 with lines linetype 4 title 'texels', \
     of('materials') using 2:4 with lines linetype 5 title 'materials'
 unset multiplot
