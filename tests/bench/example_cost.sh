@@ -27,8 +27,9 @@ for asked in tiled=12 scattered=5; do
         exit own > 0 && sum >= least * own ? 0 : 1
     }' || failed=1
     # Set-up cancels.
-    few=$(($(wide "$placement" 10 60) - $(wide "$placement" 10 20)))
-    many=$(($(wide "$placement" 1000 60) - $(wide "$placement" 1000 20)))
+    base=$(wide "$placement" 10 0)
+    few=$(($(wide "$placement" 10 40) - base))
+    many=$(($(wide "$placement" 1000 40) - base))
     echo "$placement: $((few / 40)) instructions over 10^2 examples, $((many / 40)) over 10^6"
     [ "$many" -gt 0 ] && [ "$many" -lt $((3 * few)) ] || failed=1
 done
