@@ -209,9 +209,7 @@ static void print_sum(const glint_plan *plan, const render_values *v)
            1e-3 * (double)out.ns_per_sample, 1e-9 * (double)out.ns_per_sample * samples, (double)out.error, out.samples,
            (double)out.noise);
     if (out.error_of_mean > 1.05F * out.error)
-        printf("few facets are lit, and some flip: what is left out is %.2g of the picture's root mean square, and "
-               "%.2g of "
-               "its mean\n",
+        printf("few facets are lit, and some flip: that is %.2g of the picture's root mean square, %.2g of its mean\n",
                (double)out.error, (double)out.error_of_mean);
     if (!(render_accuracy(v) > 0.0))
         puts("nothing is left out");

@@ -86,6 +86,18 @@ static document *check_file(const char *file, bool json, unsigned total[SEVERITY
     return d;
 }
 
+static const char *plural(unsigned count)
+{
+    return count == 1 ? "" : "s";
+}
+
+static void print_sum(int count, const unsigned total[])
+{
+    const unsigned errors = total[VALIDATE_ERROR], warnings = total[VALIDATE_WARNING], infos = total[VALIDATE_INFO];
+    printf("%d file%s: %u error%s, %u warning%s, %u info%s\n", count, plural((unsigned)count), errors, plural(errors),
+           warnings, plural(warnings), infos, plural(infos));
+}
+
 static int check_all(const char *const *files, bool json)
 {
     unsigned total[SEVERITY_COUNT] = { 0 };
@@ -103,8 +115,7 @@ static int check_all(const char *const *files, bool json)
         if (print_document(all) != COMMAND_DONE)
             return COMMAND_BAD_INPUT;
     } else {
-        printf("%d files: %u errors, %u warnings, %u infos\n", count, total[VALIDATE_ERROR], total[VALIDATE_WARNING],
-               total[VALIDATE_INFO]);
+        print_sum(count, total);
     }
     return total[VALIDATE_ERROR] > 0 ? COMMAND_BAD_INPUT : COMMAND_DONE;
 }

@@ -209,7 +209,8 @@ float dictionary_quantile(const dictionary_marginal marginal, float u)
         if (rest < segment) {
             /* rest = left t + (right - left) t^2 / 2, without the difference of nearly equal numbers. */
             const float root = sqrtf(fmaxf(left * left + 2.0F * (right - left) * rest, 0.0F));
-            const float t = fminf(2.0F * rest / (left + root), 1.0F);
+            const float divisor = left + root; /* 0: nothing is left to go, and there is no density yet */
+            const float t = divisor > 0.0F ? fminf(2.0F * rest / divisor, 1.0F) : 0.0F;
             return (signed_share < 0.0F ? -DICTIONARY_SPACING : DICTIONARY_SPACING) * ((float)i + t);
         }
         rest -= segment;

@@ -7,7 +7,8 @@
 
 /* A pixel under box filter varies by up to so many times (1 - p) / (N p): docs/truth.md, single pixels, 16 samples. */
 #define PLAN_PIXEL_VARIANCE 1.1
-/* A drawn realisation varies by no more than so many 1 / (N p): model/counting_drawn.c. */
+/* A drawn realisation varies by no more than so many 1 / (N p), as draw_deviation has it; model/counting_drawn.c shows
+ * that it is less than 8. */
 #define PLAN_DRAW_VARIANCE 9.0
 
 /* What the plan says to the renderer. */
@@ -51,6 +52,11 @@ static inline uint32_t plan_pair_count(const glint_plan *p, uint32_t material)
 static inline const glint_plan_pair *plan_pair(const glint_plan *p, uint32_t material, uint32_t index)
 {
     return &p->summary.pairs[p->pairs[p->first_pair[material] + index]];
+}
+
+static inline const char *plan_light_name(const glint_plan_light *l)
+{
+    return l->name ? l->name : "a light";
 }
 
 /* N p in the middle of a bin. */

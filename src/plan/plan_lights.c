@@ -11,11 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const char *name_of(const glint_plan_light *l)
-{
-    return l->name ? l->name : "a light";
-}
-
 static int is_shape(const glint_plan *p, const glint_plan_pair *pair)
 {
     return p->summary.lights[pair->light].kind == GLINT_PLAN_LIGHT_SHAPE;
@@ -196,7 +191,7 @@ static void decide_caps(glint_plan *p, const glint_plan_pair *pair)
     d.ns_per_sample = seen * plan_costs[PLAN_COST_SMOOTH];
     d.error = (float)sqrt(l.variance);
     plan_decide(p, d, "the middle of %s stands for its shape where that is off by %.2g or less",
-                name_of(&p->summary.lights[pair->light]), p->caps > 0 ? cap_error(p->caps - 1) : cap_error(0));
+                plan_light_name(&p->summary.lights[pair->light]), p->caps > 0 ? cap_error(p->caps - 1) : cap_error(0));
 }
 
 static void decide_points(glint_plan *p, const glint_plan_pair *pair)
@@ -210,16 +205,16 @@ static void decide_points(glint_plan *p, const glint_plan_pair *pair)
     if (!(seen > 0.0F))
         return;
     p->excess += l.excess;
-    d.ns_per_sample = seen * plan_costs[PLAN_COST_LTC];
+    d.ns_per_sample = seen * plan_costs[PLAN_COST_POINTS];
     d.error = (float)sqrt(l.variance);
     plan_decide(p, d, "%s is so small that a few points of it know its integral",
-                name_of(&p->summary.lights[pair->light]));
+                plan_light_name(&p->summary.lights[pair->light]));
 }
 
 static void decide_shape(glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_plan_material *const m = &p->summary.materials[pair->material];
-    const char *const name = name_of(&p->summary.lights[pair->light]);
+    const char *const name = plan_light_name(&p->summary.lights[pair->light]);
     const loss l = loss_of_fit(p, pair);
     const double error = sqrt(l.variance);
     const float seen = pair->shapes[FIT_ENTRY].seen;
@@ -253,14 +248,14 @@ static void decide_light(glint_plan *p, uint32_t index)
         return;
     d.ns_per_sample = p->light_seen[index] * plan_costs[PLAN_COST_SMOOTH];
     if (l->kind == GLINT_PLAN_LIGHT_CAP) {
-        plan_decide(p, d, "%s is small and round: one direction stands for it", name_of(l));
+        plan_decide(p, d, "%s is small and round: one direction stands for it", plan_light_name(l));
         return;
     }
     snprintf(d.choice, sizeof(d.choice), "sampled");
     if (l->patch_count > 0)
-        plan_decide(p, d, "%s is cut into %u patches of even light", name_of(l), l->patch_count);
+        plan_decide(p, d, "%s is cut into %u patches of even light", plan_light_name(l), l->patch_count);
     else
-        plan_decide(p, d, "%s is sampled by its light", name_of(l));
+        plan_decide(p, d, "%s is sampled by its light", plan_light_name(l));
 }
 
 void plan_lights(glint_plan *p)

@@ -6,19 +6,12 @@
  */
 #include "plan/plan.h"
 
-#include <stdio.h>
-
-static const char *name_of(const glint_plan_light *l)
-{
-    return l->name ? l->name : "a light";
-}
-
 static void leave_out(glint_plan *p, const glint_plan_pair *pair)
 {
     const glint_decision d = {
         GLINT_EFFECT_SHADOWS, (int32_t)pair->material, (int32_t)pair->light, 0, "none", "", 0.0F, 0.0F, 0.0F
     };
-    plan_decide(p, d, "nothing can come between it and %s", name_of(&p->summary.lights[pair->light]));
+    plan_decide(p, d, "nothing can come between it and %s", plan_light_name(&p->summary.lights[pair->light]));
 }
 
 static void trace(glint_plan *p, uint32_t light, float rays)
@@ -27,7 +20,7 @@ static void trace(glint_plan *p, uint32_t light, float rays)
     const glint_decision d = {
         GLINT_EFFECT_SHADOWS, -1, (int32_t)light, 1, "traced", "", rays * plan_costs[PLAN_COST_SHADOW_RAY], 0.0F, 0.0F
     };
-    plan_decide(p, d, "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays, name_of(l));
+    plan_decide(p, d, "%u of %u rays to %s were blocked", l->blocked_rays, l->shadow_rays, plan_light_name(l));
 }
 
 void plan_shadows(glint_plan *p)

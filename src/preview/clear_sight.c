@@ -19,7 +19,7 @@
 /* Points on sides of planes, to be looked at in all: about a twentieth of a second. Taste. */
 #define MOST_WORK 50000000
 /* Positions are floats: a few units in the last place of the largest coordinate. Rays begin further off the surface
- * than that (resolve_clearance in hit.c). */
+ * than that (clearance in hit_kernel.h). */
 #define SLACK (4.0 * 0x1p-23)
 
 typedef struct points {
@@ -249,7 +249,10 @@ static bool is_there(const geometry *g, int instance)
 
 static bool sees_all_of(proof *p, int instance, const light *l)
 {
+    if (p->work <= 0)
+        return false;
     points rays = points_of(p, instance);
+    p->work -= rays.count;
     bool sees = add_light(p, l, &rays);
     const box around = box_around(&rays);
     for (int i = 0; sees && i < p->geometry->scene->instance_count; ++i)

@@ -263,4 +263,10 @@ static inline void resolve(hit_batch *b, int at)
     store_vector(b->across, at, g.across);
 }
 
+static inline void resolve_hits(hit_batch *b, int count)
+{
+    for (int at = 0; at < count; at += WIDE_LANES)
+        resolve(b, at);
+}
+
 #endif

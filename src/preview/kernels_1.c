@@ -4,10 +4,4 @@
 #include "preview/hit_kernel.h"
 #include "preview/light_kernel.h"
 
-static void resolve_all(hit_batch *b, int count)
-{
-    for (int at = 0; at < count; at += WIDE_LANES)
-        resolve(b, at);
-}
-
-const kernels kernels_1 = { .lanes = WIDE_LANES, .camera = leave_camera, .hit = resolve_all, .light = look_at_light };
+const kernels kernels_1 = { .lanes = WIDE_LANES, .camera = leave_camera, .hit = resolve_hits, .light = look_at_light };

@@ -2,7 +2,6 @@
 #include "preview/planned.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "preview/survey.h"
 

@@ -7,6 +7,12 @@
 /* Of a pixel, that tell what bounces bring. */
 enum { SURVEY_SAMPLES = 4 };
 
+/* The mean of its channels. */
+static inline double survey_level(const float rgb[3])
+{
+    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3.0;
+}
+
 typedef struct survey_name {
     char text[56];
 } survey_name;

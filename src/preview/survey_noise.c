@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "preview/hash.h"
+#include "preview/survey.h"
 #include "preview/threads.h"
 
 enum { SEQUENCES = 2, MOST_LEVELS = 4 }; /* levels: of 4^k samples, up to SURVEY_MOST_SAMPLES */
@@ -27,11 +28,6 @@ typedef struct pixel_sums {
 typedef struct level_moments {
     double mean, square; /* over pixels, of the relative variance */
 } level_moments;
-
-static double level(const float rgb[3])
-{
-    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3.0;
-}
 
 /* What the threads read, and where each pixel's sums are. */
 typedef struct task {
@@ -52,8 +48,8 @@ static void add_samples(void *user, int index)
             pixel_sample sample;
             ray_counts unused = { 0 };
             integrate(&own, t->places[index].x, t->places[index].y, i, &sample, &unused);
-            sums->discrete[k] += level(sample.light.discrete);
-            sums->smooth[k] += level(sample.light.smooth);
+            sums->discrete[k] += survey_level(sample.light.discrete);
+            sums->smooth[k] += survey_level(sample.light.smooth);
         }
     }
 }

@@ -9,11 +9,6 @@
 /* Dimensions of the sampler that a path's first vertex does not use. */
 #define DIM_SURVEY 1000000U
 
-static double level(const float rgb[3])
-{
-    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3.0;
-}
-
 /* ---- whole samples ---- */
 
 static void look_at_samples(const world *w, const world *direct, int x, int y, survey_pixel *out)
@@ -32,8 +27,8 @@ static void look_at_samples(const world *w, const world *direct, int x, int y, s
         }
         out->bounce_rays += (double)(counts.bounce_rays - fewer.bounce_rays) / SURVEY_SAMPLES;
         out->sky_rays += (double)fewer.bounce_rays / SURVEY_SAMPLES;
-        sum += level(whole.light.smooth);
-        straight += level(less.light.smooth);
+        sum += survey_level(whole.light.smooth);
+        straight += survey_level(less.light.smooth);
         is_surface = is_surface || whole.depth > 0.0F;
     }
     /* Where no light comes straight from a light, bounces bring all that there is, however few of them find it. */
@@ -93,7 +88,7 @@ static void note_shape(const world *w, const vertex *v, const sampler *random, s
         return;
     const radiance cap =
         look_at_light(w, to->index, (looking){ .shadowed = true, .as_cap = true }, v, random, &facets, &none);
-    to->cap_off = level(cap.smooth) / to->level - 1.0;
+    to->cap_off = survey_level(cap.smooth) / to->level - 1.0;
     to->cap_share = direct_cap_share(error, ldexp(SHADE_CAP_ERROR, to->shape));
 }
 
@@ -125,13 +120,13 @@ static survey_light note_light(const world *w, chosen_light chosen, const vertex
     const radiance seen = look_at_light(w, chosen.index, (looking){ .shadowed = true }, v, random, &facets, &counts);
     survey_light note = { .index = chosen.index,
                           .probability = (double)chosen.probability,
-                          .level = level(seen.smooth),
+                          .level = survey_level(seen.smooth),
                           .glint_evals = counts.glint_evals,
                           .smooth_evals = counts.smooth_evals };
     if (chosen.index < w->light_count && counts.shadow_rays > 0) {
         const radiance all = look_at_light(w, chosen.index, (looking){ .shadowed = false }, v, random, &unused, &none);
         note.shadow_rays = counts.shadow_rays;
-        note.is_blocked = note.level < level(all.smooth);
+        note.is_blocked = note.level < survey_level(all.smooth);
     }
     note_shape(w, v, random, &note);
     const double tiles = (double)w->glint_side * (double)w->glint_side;
@@ -141,7 +136,7 @@ static survey_light note_light(const world *w, chosen_light chosen, const vertex
         const vertex alone = facets_alone(v);
         const radiance shown =
             look_at_light(w, chosen.index, (looking){ .shadowed = true }, &alone, random, &unused, &none);
-        note.facet_level = level(shown.smooth);
+        note.facet_level = survey_level(shown.smooth);
     }
     return note;
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_points.h"
 #include "plan/cost_table.h"
 #include "preview/preview.h"
 #include "race.h"
@@ -34,6 +35,7 @@ static const char *const names[PLAN_COST_COUNT] = {
     [PLAN_COST_DICTIONARY] = "DICTIONARY",
     [PLAN_COST_EXAMPLE] = "EXAMPLE",
     [PLAN_COST_EXPLICIT_FACET] = "EXPLICIT_FACET",
+    [PLAN_COST_POINTS] = "POINTS",
     [PLAN_COST_LTC] = "LTC",
     [PLAN_COST_QUADRATURE] = "QUADRATURE",
     [PLAN_COST_COAT] = "COAT",
@@ -51,36 +53,27 @@ static void stop(const char *what)
 
 /* ---- calls of the library ---- */
 
-/* Pixels of 100 facets, half vectors within the lobe, in a batch as the renderer has them. */
-typedef struct points {
-    double u[CALLS], v[CALLS];
-    float dudx[CALLS], dudy[CALLS], dvdx[CALLS], dvdy[CALLS], wo[3][CALLS], wi[3][CALLS], solid_angle_sr[CALLS];
-    uint32_t draw[CALLS];
-    glint_surface surface[CALLS];
-    glint_area_light area[CALLS];
-    glint_value value[CALLS];
-} points;
+static batch_points points;
+static glint_surface surfaces[CALLS];
+static glint_area_light lights[CALLS];
+static glint_value values[CALLS];
 
-static void place(points *p, const glint_material_options *o, const glint_area_light *area)
+/* Pixels of 100 facets, half vectors within the lobe, in a batch as the renderer has them. */
+static void place(const glint_material_options *o, const glint_area_light *area)
 {
     uint64_t random = 1;
     for (int i = 0; i < CALLS; i++) {
         const float x = (float)random_between(&random, -0.4, 0.4), y = (float)random_between(&random, -0.4, 0.4);
         const float wo[3] = { x, y, sqrtf(1.0F - x * x - y * y) }, wi[3] = { -y, x, wo[2] };
-        for (int c = 0; c < 3; c++) {
-            p->wo[c][i] = wo[c];
-            p->wi[c][i] = wi[c];
-        }
-        p->u[i] = random_between(&random, -1.0, 1.0);
-        p->v[i] = random_between(&random, -1.0, 1.0);
-        p->dudx[i] = p->dvdy[i] = 1e-3F;
-        p->dudy[i] = 0.0F;
-        p->dvdx[i] = 2e-4F;
-        p->solid_angle_sr[i] = 1e-2F;
-        p->draw[i] = (uint32_t)random_bits(&random);
-        p->surface[i] = o->surface;
+        glint_footprint f = { .dudx = 1e-3F, .dvdx = 2e-4F, .dvdy = 1e-3F };
+        f.u = random_between(&random, -1.0, 1.0);
+        f.v = random_between(&random, -1.0, 1.0);
+        f.draw = (uint32_t)random_bits(&random);
+        batch_points_place(&points, i, &f);
+        batch_points_light(&points, i, wo, wi, 1e-2F);
+        surfaces[i] = o->surface;
         if (area)
-            p->area[i] = *area;
+            lights[i] = *area;
     }
 }
 
@@ -94,25 +87,11 @@ typedef struct contestant {
 
 static void run(contestant *c)
 {
-    static points p;
-    place(&p, &c->options, c->area);
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = CALLS;
-    b.u = p.u;
-    b.v = p.v;
-    b.dudx = p.dudx;
-    b.dudy = p.dudy;
-    b.dvdx = p.dvdx;
-    b.dvdy = p.dvdy;
-    b.solid_angle_sr = p.solid_angle_sr;
-    b.surfaces = p.surface;
-    b.area_lights = c->area ? p.area : NULL;
-    b.draw = p.draw;
-    b.values = p.value;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = p.wo[k];
-        b.wi[k] = p.wi[k];
-    }
+    place(&c->options, c->area);
+    glint_batch b = batch_points_of(&points, CALLS);
+    b.surfaces = surfaces;
+    b.area_lights = c->area ? lights : NULL;
+    b.values = values;
     const double start = race_now();
     if (glint_eval_batch(c->material, &b) != GLINT_OK)
         stop("no batch");
@@ -148,7 +127,8 @@ static void measure_models(void)
     enter(c++, PLAN_COST_DRAWN, GLINT_MODEL_COUNTING, NULL)->options.draw_deviation = 1e5F;
     enter(c++, PLAN_COST_COUNTED_COLORS, GLINT_MODEL_COUNTING, NULL)->options.color_variation = 0.5F;
     enter(c++, PLAN_COST_SMOOTH, GLINT_MODEL_SMOOTH, NULL);
-    enter(c++, PLAN_COST_LTC, GLINT_MODEL_SMOOTH, &window);
+    enter(c++, PLAN_COST_POINTS, GLINT_MODEL_SMOOTH, &window);
+    enter(c++, PLAN_COST_LTC, GLINT_MODEL_SMOOTH, &wall);
     enter(c++, PLAN_COST_QUADRATURE, GLINT_MODEL_SMOOTH, &wall)->options.area_light_method = GLINT_AREA_LIGHT_EXACT;
     enter(c++, PLAN_COST_DICTIONARY, GLINT_MODEL_DICTIONARY, NULL);
     enter(c++, PLAN_COST_EXPLICIT_FACET, GLINT_MODEL_EXPLICIT, NULL);

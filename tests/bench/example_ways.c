@@ -9,19 +9,6 @@
 
 #include "seed_race.h"
 
-static glint_example options_of(int is_scattered)
-{
-    glint_example o = GLINT_EXAMPLE_INIT;
-    o.size = 32;
-    o.sigma_r = 0.02F;
-    if (is_scattered) {
-        o.placement = GLINT_EXAMPLE_SCATTERED;
-        o.scale_variation = 0.2F;
-        o.rotation_variation_rad = 3.0F;
-    }
-    return o;
-}
-
 static void under_footprints(const bench *b)
 {
     static const double sigmas[] = { 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0 };
@@ -58,7 +45,7 @@ int main(int argc, char **argv)
         return 2;
     }
     const int is_scattered = strcmp(argv[2], "scattered") == 0;
-    const glint_example o = options_of(is_scattered);
+    const glint_example o = seed_race_example(is_scattered);
     bench b;
     bench_make(&b, is_scattered ? GLINT_EXAMPLE_SCRATCHES : GLINT_EXAMPLE_ISOTROPIC_NOISE, &o);
     if (is_seeds)

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "material_or_exit.h"
 #include "statistics.h"
 #include "study/area_cases.h"
 #include "study/law.h"
@@ -78,17 +79,6 @@ static void run_look_ups(const way *w, long times)
     }
 }
 
-static glint_material *material_of(glint_material_options o)
-{
-    glint_material *m = NULL;
-    char message[256];
-    if (glint_material_create(&o, &m, message, sizeof message) != GLINT_OK) {
-        fprintf(stderr, "ways: %s\n", message);
-        exit(1);
-    }
-    return m;
-}
-
 /* The light of a rectangle: at points in it, which are evaluated as lights of their own, or as a whole. */
 static double light_of(const glint_material *m, const area_case *c, int points, uint64_t *random)
 {
@@ -120,7 +110,7 @@ static void run_integrals(const way *w, long times)
     uint64_t random = 71;
     o.model = GLINT_MODEL_SMOOTH;
     o.area_light_method = w->points < 0 ? GLINT_AREA_LIGHT_EXACT : GLINT_AREA_LIGHT_FAST;
-    glint_material *const m = material_of(o);
+    glint_material *const m = material_or_exit(&o);
     for (int i = 0; i < LIGHTS; i++) {
         cases[i] = area_case_of(&random, 0);
         cases[i].light.kind = GLINT_AREA_RECTANGLE;
@@ -142,7 +132,7 @@ static void run_models(const way *w, long times)
     o.distribution = GLINT_DISTRIBUTION_BECKMANN;
     o.surface.facets_per_m2 = 1024e8F;
     o.surface.alpha_x = o.surface.alpha_y = 0.3F;
-    glint_material *const m = material_of(o);
+    glint_material *const m = material_or_exit(&o);
     for (long n = 0; n < times; n++)
         for (int i = 0; i < PIXELS; i++) {
             const glint_footprint f = { .u = i * 1e-4, .v = (double)n * 1e-4, .dudx = 1e-4F, .dvdy = 1e-4F };

@@ -110,7 +110,7 @@ static void validate_counts_and_ends_with_1_when_any_file_is_wrong(void **state)
     scene_write("plane");
     outcome o = glint_run(NULL, "validate", "plane.gltf");
     assert_exit(&o, 0);
-    assert_string_equal(o.out, "1 files: 0 errors, 0 warnings, 0 infos\n");
+    assert_string_equal(o.out, "1 file: 0 errors, 0 warnings, 0 infos\n");
     outcome_free(&o);
     file_write_text("bad.json", "{\"extensions\":{\"GLINT_materials_glint\":{\"glintFactor\":2}}}");
     o = glint_run(NULL, "validate", "plane.gltf", "bad.json", "none.glb");

@@ -1,5 +1,6 @@
 /* Lights of real size against brute force, which shares no code with the library. */
 #include "area_material.h"
+#include "batch_points.h"
 
 #include <stdlib.h>
 
@@ -242,8 +243,7 @@ static void batches_are_single_calls(void **state)
 {
     (void)state;
     enum { COUNT = 150 };
-    static double u[COUNT], v[COUNT];
-    static float step[4][COUNT], wo[3][COUNT], rgb[3][COUNT];
+    static batch_points points;
     static glint_area_light lights[COUNT];
     uint64_t random = 37;
     FOR_EACH_CONFIGURATION(c, m, row)
@@ -251,37 +251,20 @@ static void batches_are_single_calls(void **state)
         for (int i = 0; i < COUNT; i++) {
             const area_case a = area_case_of(&random, 0);
             const glint_footprint f = random_footprint(&random);
-            u[i] = f.u;
-            v[i] = f.v;
-            step[0][i] = f.dudx;
-            step[1][i] = f.dudy;
-            step[2][i] = f.dvdx;
-            step[3][i] = f.dvdy;
+            batch_points_place(&points, i, &f);
+            batch_points_light(&points, i, a.wo, a.wo, 0.0F);
             lights[i] = a.light;
-            for (int k = 0; k < 3; k++)
-                wo[k][i] = a.wo[k];
         }
-        glint_batch b = GLINT_BATCH_INIT;
-        b.count = row->model == GLINT_MODEL_EXPLICIT ? 10 : COUNT;
-        b.u = u;
-        b.v = v;
-        b.dudx = step[0];
-        b.dudy = step[1];
-        b.dvdx = step[2];
-        b.dvdy = step[3];
+        glint_batch b = batch_points_of(&points, row->model == GLINT_MODEL_EXPLICIT ? 10 : COUNT);
         b.area_lights = lights;
-        for (int k = 0; k < 3; k++) {
-            b.wo[k] = wo[k];
-            b.rgb[k] = rgb[k];
-        }
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
-        for (size_t i = 0; i < b.count; i++) {
-            const glint_footprint f = { u[i], v[i], step[0][i], step[1][i], step[2][i], step[3][i], 0U };
-            const float out[3] = { wo[0][i], wo[1][i], wo[2][i] };
+        for (int i = 0; i < (int)b.count; i++) {
+            const glint_footprint f = batch_points_footprint(&points, i);
+            const float out[3] = { points.wo[0][i], points.wo[1][i], points.wo[2][i] };
             glint_value value;
             glint_eval_area(m, NULL, &f, out, &lights[i], &value);
             for (int k = 0; k < 3; k++)
-                assert_memory_equal(&value.rgb[k], &rgb[k][i], sizeof(float));
+                assert_memory_equal(&value.rgb[k], &points.rgb[k][i], sizeof(float));
         }
     }
 }

@@ -5,13 +5,12 @@
 #include <string.h>
 
 #include "area_cases.h"
+#include "batch_points.h"
 
 enum { BATCH = 1000 };
 
 typedef struct batch_arrays {
-    double u[BATCH], v[BATCH];
-    float jacobian[4][BATCH], wo[3][BATCH], wi[3][BATCH], solid_angle[BATCH], rgb[3][BATCH];
-    uint32_t seed[BATCH];
+    batch_points points;
     glint_surface surface[BATCH];
 } batch_arrays;
 
@@ -22,18 +21,10 @@ static void fill(batch_arrays *a, const glint_material *m, uint64_t *random)
         float wo[3], wi[3];
         random_direction(random, wo);
         random_direction(random, wi);
-        a->u[i] = f.u;
-        a->v[i] = f.v;
-        a->jacobian[0][i] = f.dudx;
-        a->jacobian[1][i] = f.dudy;
-        a->jacobian[2][i] = f.dvdx;
-        a->jacobian[3][i] = f.dvdy;
-        a->seed[i] = f.seed;
-        for (int k = 0; k < 3; k++) {
-            a->wo[k][i] = wo[k];
-            a->wi[k][i] = i % 17 == 0 ? -wi[k] : wi[k]; /* some below the horizon */
-        }
-        a->solid_angle[i] = (float)random_log_between(random, 1e-6, 1.0);
+        for (int k = 0; k < 3; k++)
+            wi[k] = i % 17 == 0 ? -wi[k] : wi[k]; /* some below the horizon */
+        batch_points_place(&a->points, i, &f);
+        batch_points_light(&a->points, i, wo, wi, (float)random_log_between(random, 1e-6, 1.0));
         a->surface[i] = glint_material_surface(m);
         a->surface[i].alpha_x = (float)random_log_between(random, 1e-3, 1.0);
         a->surface[i].facets_per_m2 = i % 13 == 0 ? 0.0F : (float)random_log_between(random, 1.0, 1e12);
@@ -48,11 +39,8 @@ static void put_together(batch_arrays *a, uint64_t *random)
     for (int i = 1; i < BATCH; i++) {
         if (random_bits(random) % 8 < 3)
             continue;
-        a->u[i] = a->u[i - 1];
-        a->v[i] = a->v[i - 1];
-        for (int k = 0; k < 4; k++)
-            a->jacobian[k][i] = a->jacobian[k][i - 1];
-        a->seed[i] = a->seed[i - 1];
+        const glint_footprint before = batch_points_footprint(&a->points, i - 1);
+        batch_points_place(&a->points, i, &before);
         if (i % 11 != 0)
             a->surface[i].facets_per_m2 = a->surface[i - 1].facets_per_m2;
     }
@@ -60,22 +48,8 @@ static void put_together(batch_arrays *a, uint64_t *random)
 
 static glint_batch batch_of(batch_arrays *a, int with_surfaces)
 {
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = BATCH;
-    b.u = a->u;
-    b.v = a->v;
-    b.dudx = a->jacobian[0];
-    b.dudy = a->jacobian[1];
-    b.dvdx = a->jacobian[2];
-    b.dvdy = a->jacobian[3];
-    b.seed = a->seed;
-    b.solid_angle_sr = a->solid_angle;
+    glint_batch b = batch_points_of(&a->points, BATCH);
     b.surfaces = with_surfaces ? a->surface : NULL;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = a->wo[k];
-        b.wi[k] = a->wi[k];
-        b.rgb[k] = a->rgb[k];
-    }
     return b;
 }
 
@@ -95,15 +69,15 @@ static void batch_gives_the_bits_of_single_calls(void **state)
         b.values = values;
         assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
         for (int i = 0; i < BATCH; i++) {
-            const glint_footprint f = { a.u[i],           a.v[i],           a.jacobian[0][i], a.jacobian[1][i],
-                                        a.jacobian[2][i], a.jacobian[3][i], a.seed[i] };
-            const float wo[3] = { a.wo[0][i], a.wo[1][i], a.wo[2][i] };
-            const float wi[3] = { a.wi[0][i], a.wi[1][i], a.wi[2][i] };
-            const glint_light light = { GLINT_LIGHT_CAP, a.solid_angle[i] };
+            const batch_points *const p = &a.points;
+            const glint_footprint f = batch_points_footprint(p, i);
+            const float wo[3] = { p->wo[0][i], p->wo[1][i], p->wo[2][i] };
+            const float wi[3] = { p->wi[0][i], p->wi[1][i], p->wi[2][i] };
+            const glint_light light = { GLINT_LIGHT_CAP, p->solid_angle_sr[i] };
             float rgb[3];
             glint_eval(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, rgb);
             for (int k = 0; k < 3; k++)
-                assert_memory_equal(&rgb[k], &a.rgb[k][i], sizeof(float));
+                assert_memory_equal(&rgb[k], &p->rgb[k][i], sizeof(float));
             glint_value value;
             glint_eval_value(m, with_surfaces ? &a.surface[i] : NULL, &f, wo, wi, &light, &value);
             assert_memory_equal(&value, &values[i], sizeof(value));
@@ -158,8 +132,8 @@ static void threads_may_share_a_material(void **state)
         evaluate(&jobs[2]);
         for (int i = 0; i < 2; i++)
             pthread_join(thread[i], NULL);
-        assert_memory_equal(a[0].rgb, a[2].rgb, sizeof(a[0].rgb));
-        assert_memory_equal(a[1].rgb, a[2].rgb, sizeof(a[1].rgb));
+        assert_memory_equal(a[0].points.rgb, a[2].points.rgb, sizeof(a[0].points.rgb));
+        assert_memory_equal(a[1].points.rgb, a[2].points.rgb, sizeof(a[1].points.rgb));
     }
     contract_kept(13, "Threads may share a material, and get the same bits", "batches", NULL);
 }

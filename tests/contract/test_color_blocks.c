@@ -8,6 +8,7 @@
  * Every block has a place, a direction and a seed of its own: blocks are independent, and the error of a variance
  * follows from how it differs between them.
  */
+#include "batch_points.h"
 #include "configurations.h"
 
 #include <string.h>
@@ -56,47 +57,21 @@ static void footprint_at(const double j[4], double u, double v, double x, double
 static void block_of(const scene *s, const glint_material *m, int split, const double j[4], double u, double v,
                      uint32_t seed, picture p)
 {
-    static double at[2][SAMPLES];
-    static float step[4][SAMPLES], wo[3][SAMPLES], wi[3][SAMPLES], solid_angle[SAMPLES], rgb[3][SAMPLES];
-    static uint32_t seeds[SAMPLES];
-    glint_batch b = GLINT_BATCH_INIT;
+    static batch_points points;
     const int side = SIDE * split;
-    b.count = (size_t)(side * side);
     for (int i = 0; i < side * side; i++) {
         glint_footprint f;
         footprint_at(j, u, v, (i % side + 0.5) / split, (i / side + 0.5) / split, 1.0 / split, seed, &f);
-        at[0][i] = f.u;
-        at[1][i] = f.v;
-        step[0][i] = f.dudx;
-        step[1][i] = f.dudy;
-        step[2][i] = f.dvdx;
-        step[3][i] = f.dvdy;
-        seeds[i] = seed;
-        solid_angle[i] = (float)s->solid_angle;
-        for (int c = 0; c < 3; c++) {
-            wo[c][i] = s->wo[c];
-            wi[c][i] = s->wi[c];
-        }
+        batch_points_place(&points, i, &f);
+        batch_points_light(&points, i, s->wo, s->wi, (float)s->solid_angle);
     }
-    b.u = at[0];
-    b.v = at[1];
-    b.dudx = step[0];
-    b.dudy = step[1];
-    b.dvdx = step[2];
-    b.dvdy = step[3];
-    b.seed = seeds;
-    b.solid_angle_sr = solid_angle;
-    for (int c = 0; c < 3; c++) {
-        b.wo[c] = wo[c];
-        b.wi[c] = wi[c];
-        b.rgb[c] = rgb[c];
-    }
+    const glint_batch b = batch_points_of(&points, side * side);
     assert_int_equal(glint_eval_batch(m, &b), GLINT_OK);
     float smooth[3];
     glint_eval(m, NULL, NULL, s->wo, s->wi, NULL, smooth);
     memset(p, 0, sizeof(picture));
     for (int i = 0; i < side * side; i++) {
-        const float value[3] = { rgb[0][i], rgb[1][i], rgb[2][i] };
+        const float value[3] = { points.rgb[0][i], points.rgb[1][i], points.rgb[2][i] };
         add_sample(p, i % side / split, i / side / split, value, smooth, 1.0 / (split * split));
     }
 }

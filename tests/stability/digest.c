@@ -5,6 +5,7 @@
 #define _GNU_SOURCE
 #include "traps.h"
 
+#include "batch_points.h"
 #include "digest_preview.h"
 #include "exact_inputs.h"
 #include "model/area_kernel.h"
@@ -80,49 +81,25 @@ static uint64_t hash_queries(uint64_t hash, const glint_material *m, uint64_t *r
 /* Caps, and lights of real size, at the same points. */
 static uint64_t hash_batch(uint64_t hash, const glint_material *m, uint64_t *random)
 {
-    static double u[BATCH], v[BATCH];
-    static float step[4][BATCH], wo[3][BATCH], wi[3][BATCH], angle[BATCH], rgb[3][BATCH];
+    static batch_points points;
     static glint_area_light light[BATCH];
-    static uint32_t draw[BATCH];
     for (int i = 0; i < BATCH; i++) {
-        float o[3], w[3];
-        exact_direction(random, o);
-        exact_direction(random, w);
-        const glint_footprint f = exact_footprint(random);
-        u[i] = f.u;
-        v[i] = f.v;
-        step[0][i] = f.dudx;
-        step[1][i] = f.dudy;
-        step[2][i] = f.dvdx;
-        step[3][i] = f.dvdy;
-        for (int k = 0; k < 3; k++) {
-            wo[k][i] = o[k];
-            wi[k][i] = w[k];
-        }
-        angle[i] = exact_solid_angle(random);
+        float wo[3], wi[3];
+        exact_direction(random, wo);
+        exact_direction(random, wi);
+        glint_footprint f = exact_footprint(random);
+        const float solid_angle_sr = exact_solid_angle(random);
         light[i] = exact_light(random);
-        draw[i] = (uint32_t)random_bits(random);
+        f.draw = (uint32_t)random_bits(random);
+        batch_points_place(&points, i, &f);
+        batch_points_light(&points, i, wo, wi, solid_angle_sr);
     }
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = BATCH;
-    b.u = u;
-    b.v = v;
-    b.dudx = step[0];
-    b.dudy = step[1];
-    b.dvdx = step[2];
-    b.dvdy = step[3];
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = wo[k];
-        b.wi[k] = wi[k];
-        b.rgb[k] = rgb[k];
-    }
-    b.solid_angle_sr = angle;
-    b.draw = draw;
+    glint_batch b = batch_points_of(&points, BATCH);
     for (int is_area = 0; is_area < 2; is_area++) {
         b.area_lights = is_area ? light : NULL;
         glint_eval_batch(m, &b);
         for (int k = 0; k < 3; k++)
-            hash = hash_floats(hash, rgb[k], BATCH);
+            hash = hash_floats(hash, points.rgb[k], BATCH);
     }
     return hash;
 }

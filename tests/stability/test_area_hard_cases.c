@@ -1,6 +1,7 @@
 /* Lights of real size at the edge of what can be one: nothing is NaN, infinite or negative, and no floating-point
  * exception is raised. */
 #define _GNU_SOURCE
+#include "batch_points.h"
 #include "traps.h"
 
 static const double GRAZING = 1.5707945813; /* 89.9999 degrees */
@@ -77,8 +78,7 @@ static void lights_of_any_bits_are_sane(void **state)
 {
     (void)state;
     enum { COUNT = 256, ALONE = 4 };
-    static double u[COUNT], v[COUNT];
-    static float step[4][COUNT], wo[3][COUNT];
+    static batch_points points;
     static glint_surface surface[COUNT];
     static glint_area_light light[COUNT];
     static glint_value value[COUNT];
@@ -86,31 +86,19 @@ static void lights_of_any_bits_are_sane(void **state)
     FOR_EACH_CONFIGURATION(c, m, row)
     for (int round = 0; round < (row->model <= GLINT_MODEL_COUNTING ? 150 : 30); round++) {
         for (int i = 0; i < COUNT; i++) {
-            float o[3];
-            random_direction(&random, o);
-            const glint_footprint f = random_footprint(&random);
-            u[i] = f.u;
-            v[i] = f.v;
-            step[0][i] = round % 4 ? f.dudx : hostile(&random, f.dudx);
-            step[1][i] = f.dudy;
-            step[2][i] = f.dvdx;
-            step[3][i] = f.dvdy;
+            float wo[3];
+            random_direction(&random, wo);
+            glint_footprint f = random_footprint(&random);
+            f.dudx = round % 4 ? f.dudx : hostile(&random, f.dudx);
             for (int k = 0; k < 3; k++)
-                wo[k][i] = round % 4 ? o[k] : hostile(&random, o[k]);
+                wo[k] = round % 4 ? wo[k] : hostile(&random, wo[k]);
+            batch_points_place(&points, i, &f);
+            batch_points_light(&points, i, wo, wo, 0.0F);
             surface[i] = glint_material_surface(m);
             surface[i].alpha_x = round % 3 ? surface[i].alpha_x : hostile(&random, 0.1F);
             light[i] = light_of_any_bits(&random);
         }
-        glint_batch b = GLINT_BATCH_INIT;
-        b.count = COUNT;
-        b.u = u;
-        b.v = v;
-        b.dudx = step[0];
-        b.dudy = step[1];
-        b.dvdx = step[2];
-        b.dvdy = step[3];
-        for (int k = 0; k < 3; k++)
-            b.wo[k] = wo[k];
+        glint_batch b = batch_points_of(&points, COUNT);
         b.surfaces = surface;
         b.area_lights = light;
         b.values = value;
@@ -118,8 +106,8 @@ static void lights_of_any_bits_are_sane(void **state)
         for (int i = 0; i < COUNT; i++)
             assert_sane(&value[i]);
         for (int i = 0; i < ALONE; i++) {
-            const glint_footprint f = { u[i], v[i], step[0][i], step[1][i], step[2][i], step[3][i], 0U };
-            const float o[3] = { wo[0][i], wo[1][i], wo[2][i] };
+            const glint_footprint f = batch_points_footprint(&points, i);
+            const float o[3] = { points.wo[0][i], points.wo[1][i], points.wo[2][i] };
             glint_value alone;
             glint_eval_area(m, &surface[i], &f, o, &light[i], &alone);
             assert_memory_equal(&alone, &value[i], sizeof(alone));

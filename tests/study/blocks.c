@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_points.h"
 #include "facet_truth.h"
 #include "grid_truth.h"
 #include "statistics.h"
@@ -16,7 +17,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { SIDE = 16, SIZES = 5, SPLIT = 4, MOST_SAMPLES = SIDE * SIDE * SPLIT * SPLIT };
+enum { SIDE = 16, SIZES = 5, SPLIT = 4 };
 
 typedef struct setting {
     glint_distribution distribution;
@@ -47,39 +48,13 @@ static void pixel_of_turn(const setting *s, int i, double j[4])
 
 /* ---- one block by the library ---- */
 
-typedef struct samples {
-    double u[MOST_SAMPLES], v[MOST_SAMPLES];
-    float jacobian[4][MOST_SAMPLES], wo[3][MOST_SAMPLES], wi[3][MOST_SAMPLES], solid_angle[MOST_SAMPLES],
-        rgb[3][MOST_SAMPLES];
-    uint32_t seed[MOST_SAMPLES];
-} samples;
-
-static samples points;
+static batch_points points;
 
 static glint_batch batch_of(int count, const float wo[3], const float wi[3], double solid_angle)
 {
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = (size_t)count;
-    b.u = points.u;
-    b.v = points.v;
-    b.dudx = points.jacobian[0];
-    b.dudy = points.jacobian[1];
-    b.dvdx = points.jacobian[2];
-    b.dvdy = points.jacobian[3];
-    b.seed = points.seed;
-    b.solid_angle_sr = points.solid_angle;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = points.wo[k];
-        b.wi[k] = points.wi[k];
-        b.rgb[k] = points.rgb[k];
-        for (int i = 0; i < count; i++) {
-            points.wo[k][i] = wo[k];
-            points.wi[k][i] = wi[k];
-        }
-    }
     for (int i = 0; i < count; i++)
-        points.solid_angle[i] = (float)solid_angle;
-    return b;
+        batch_points_light(&points, i, wo, wi, (float)solid_angle);
+    return batch_points_of(&points, count);
 }
 
 /* SIDE x SIDE pixels of split x split samples; a sample has its share of the pixel as footprint, as the renderer does.
@@ -92,11 +67,15 @@ static void block_of(const glint_material *m, const glint_batch *b, int split, c
     const int side = SIDE * split;
     for (int i = 0; i < side * side; i++) {
         const double x = (i % side + 0.5) / split, y = (i / side + 0.5) / split;
-        points.u[i] = u + j[0] * x + j[1] * y;
-        points.v[i] = v + j[2] * x + j[3] * y;
-        points.seed[i] = seed;
-        for (int k = 0; k < 4; k++)
-            points.jacobian[k][i] = (float)(j[k] / split);
+        const glint_footprint f = { u + j[0] * x + j[1] * y,
+                                    v + j[2] * x + j[3] * y,
+                                    (float)(j[0] / split),
+                                    (float)(j[1] / split),
+                                    (float)(j[2] / split),
+                                    (float)(j[3] / split),
+                                    seed,
+                                    0U };
+        batch_points_place(&points, i, &f);
     }
     if (glint_eval_batch(m, b) != GLINT_OK)
         abort();

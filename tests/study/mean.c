@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "batch_points.h"
 #include "statistics.h"
 #include "study.h"
 
@@ -37,12 +38,6 @@ static double draws_for(double lit)
     return fmax(200000.0, 0.6 / lit / (MOST_SIGMA * MOST_SIGMA));
 }
 
-typedef struct points {
-    double u[CHUNK], v[CHUNK];
-    float jacobian[4][CHUNK], wo[3][CHUNK], wi[3][CHUNK], solid_angle[CHUNK], rgb[3][CHUNK];
-    uint32_t seed[CHUNK];
-} points;
-
 static void direction(double theta, double phi, float v[3])
 {
     v[0] = (float)(sin(theta) * cos(phi));
@@ -51,25 +46,26 @@ static void direction(double theta, double phi, float v[3])
 }
 
 /* Footprints of 1 mm^2, stretched as a plane tilted this much shows them, in any direction and place. */
-static void scatter(points *q, double tilt, uint64_t *random)
+static void scatter(batch_points *q, double tilt, uint64_t *random)
 {
     const double stretch = 1.0 / cos(tilt), a = 1e-3 * sqrt(stretch), c = 1e-3 / sqrt(stretch);
     for (int n = 0; n < CHUNK; n++) {
         const double turn = random_between(random, 0.0, 2.0 * PI);
-        q->jacobian[0][n] = (float)(a * cos(turn));
-        q->jacobian[1][n] = (float)(-c * sin(turn));
-        q->jacobian[2][n] = (float)(a * sin(turn));
-        q->jacobian[3][n] = (float)(c * cos(turn));
-        q->u[n] = random_between(random, -100.0, 100.0);
-        q->v[n] = random_between(random, -100.0, 100.0);
-        q->seed[n] = (uint32_t)random_bits(random);
+        glint_footprint f = { .dudx = (float)(a * cos(turn)),
+                              .dudy = (float)(-c * sin(turn)),
+                              .dvdx = (float)(a * sin(turn)),
+                              .dvdy = (float)(c * cos(turn)) };
+        f.u = random_between(random, -100.0, 100.0);
+        f.v = random_between(random, -100.0, 100.0);
+        f.seed = (uint32_t)random_bits(random);
+        batch_points_place(q, n, &f);
     }
 }
 
 /* Mean of counting / smooth over seeds and places; *p: the chance that a facet is lit, as the light's size makes it. */
 static moments mean_over_seeds(const setting *s, double facets, double *p, double most_draws, uint64_t *random)
 {
-    static points q;
+    static batch_points q;
     glint_material_options o = GLINT_MATERIAL_OPTIONS_INIT;
     o.distribution = s->distribution;
     o.surface.alpha_x = s->alpha_x;
@@ -88,27 +84,9 @@ static moments mean_over_seeds(const setting *s, double facets, double *p, doubl
     glint_eval_value(m, NULL, &unit, wo, wi, &light, &v);
     *p = (double)v.lit_probability;
 
-    glint_batch b = GLINT_BATCH_INIT;
-    b.count = CHUNK;
-    b.u = q.u;
-    b.v = q.v;
-    b.dudx = q.jacobian[0];
-    b.dudy = q.jacobian[1];
-    b.dvdx = q.jacobian[2];
-    b.dvdy = q.jacobian[3];
-    b.seed = q.seed;
-    b.solid_angle_sr = q.solid_angle;
-    for (int k = 0; k < 3; k++) {
-        b.wo[k] = q.wo[k];
-        b.wi[k] = q.wi[k];
-        b.rgb[k] = q.rgb[k];
-        for (int n = 0; n < CHUNK; n++) {
-            q.wo[k][n] = wo[k];
-            q.wi[k][n] = wi[k];
-        }
-    }
     for (int n = 0; n < CHUNK; n++)
-        q.solid_angle[n] = light.solid_angle_sr;
+        batch_points_light(&q, n, wo, wi, light.solid_angle_sr);
+    const glint_batch b = batch_points_of(&q, CHUNK);
     /* How many is fixed before the first is drawn: to stop when a mean looks good would bias it. */
     const double draws = fmin(draws_for(facets * *p), most_draws);
     moments ratio = { 0 };

@@ -5,6 +5,19 @@ enum { AROUND = 7, AGAIN = 16 };
 static const uint32_t CELL[2] = { 100U, 200U };
 static const uint32_t SEED = 5U;
 
+glint_example seed_race_example(int is_scattered)
+{
+    glint_example o = GLINT_EXAMPLE_INIT;
+    o.size = 32;
+    o.sigma_r = 0.02F;
+    if (is_scattered) {
+        o.placement = GLINT_EXAMPLE_SCATTERED;
+        o.scale_variation = 0.2F;
+        o.rotation_variation_rad = 3.0F;
+    }
+    return o;
+}
+
 size_t example_bytes(const example *e)
 {
     const size_t tiles = example_tiles_before(e, EXAMPLE_LEAST_MAP_LEVEL, e->levels);

@@ -6,6 +6,9 @@
 #include "example_bench.h"
 #include "seed_sum.h"
 
+/* A map of 32 x 32 texels, tiled, or scattered at any angle and at sizes that differ. */
+glint_example seed_race_example(int is_scattered);
+
 /* Bytes that a material's example keeps. */
 size_t example_bytes(const example *e);
 

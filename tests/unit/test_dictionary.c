@@ -1,4 +1,5 @@
 /* The dictionary's table and the cells under a footprint: integrals, lobes, mean, places. */
+#include <fenv.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -133,6 +134,20 @@ static void quantiles_invert_the_integral(void **state)
         /* 3e-6 from the area of the half floats, the midpoint rule at kinks and u in float. */
         assert_true(fabs(0.5 + copysign(below, x) - (double)u) < 2e-5);
     }
+}
+
+/* Nothing in the middle and at the first samples: 0 / 0 there, which is not to be asked for. */
+static void quantiles_are_numbers_where_there_is_no_density(void **state)
+{
+    (void)state;
+    enum { EMPTY = 3 };
+    dictionary_marginal marginal = { 0 };
+    marginal[EMPTY] = 0x3c00; /* 1 */
+    feclearexcept(FE_ALL_EXCEPT);
+    const float middle = dictionary_quantile(marginal, 0.5F), beside = dictionary_quantile(marginal, 0.5F + 0x1p-24F);
+    assert_false(fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW));
+    assert_true(middle >= 0.0F && middle <= EMPTY * DICTIONARY_SPACING);
+    assert_true(beside >= middle && beside <= (EMPTY + 1) * DICTIONARY_SPACING);
 }
 
 /* Of the logarithm to base 4 of how many facets a cell has, over cells: its mean, and the deviation that is asked for,
@@ -366,6 +381,7 @@ int main(void)
         cmocka_unit_test(every_marginal_integrates_to_one),
         cmocka_unit_test(lobes_double_from_level_to_level_and_stay),
         cmocka_unit_test(quantiles_invert_the_integral),
+        cmocka_unit_test(quantiles_are_numbers_where_there_is_no_density),
         cmocka_unit_test(density_varies_from_cell_to_cell_as_asked),
         cmocka_unit_test(mean_over_cells_is_the_target),
         cmocka_unit_test(every_width_gives_the_same_cells),

@@ -48,14 +48,7 @@ static void maps_show_the_sum_of_seeds_under_any_footprint(void **state)
     (void)state;
     static const double sigmas[] = { 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0 };
     for (int placement = 0; placement < 2; placement++) {
-        glint_example o = GLINT_EXAMPLE_INIT;
-        o.size = 32;
-        o.sigma_r = 0.02F;
-        if (placement) {
-            o.placement = GLINT_EXAMPLE_SCATTERED;
-            o.scale_variation = 0.2F;
-            o.rotation_variation_rad = 3.0F;
-        }
+        const glint_example o = seed_race_example(placement);
         bench b;
         bench_make(&b, placement ? GLINT_EXAMPLE_SCRATCHES : GLINT_EXAMPLE_ISOTROPIC_NOISE, &o);
         const seed_surface all = seed_race_export(&b);
