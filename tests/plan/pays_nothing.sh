@@ -10,6 +10,7 @@
 #
 # EACH is the project's promise. BARE is what is left to notice growth by; docs/plan.md says what it consists of.
 set -euo pipefail
+. "$(dirname "$0")/../support/one_core.sh"
 folder=$1
 shift
 effects=("$@")
