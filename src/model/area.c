@@ -87,7 +87,7 @@ static void eval_seen(const model_query *q, const area_light *light, int is_exac
 
 /* Lights that bend the lobe more take more points in cells than by transformed cosines, and far fewer than the exact
  * integral takes, which has to do where those know nothing. */
-#define MOST_BENT 3.0F
+#define MOST_BENT 2.2F
 #define MOST_BENT_BESIDE_EXACT 1e3F
 
 void area_eval_any(const model_query *q, area_value *value)

@@ -160,13 +160,11 @@ typedef struct cell_rule {
 
 static cell_rule rule_of(float bend_x, float bend_y)
 {
-    cell_rule r = { .is_tall = bend_x < bend_y };
+    cell_rule r = { .square = &cubatures[CUBATURE_SQUARE][CUBATURE_FINE], .is_tall = bend_x < bend_y };
     const float most = r.is_tall ? bend_y : bend_x, least = r.is_tall ? bend_x : bend_y;
     if (most < PLAIN_MIDDLE)
         r.square = &cubatures[CUBATURE_SQUARE][most < PLAIN_COARSE ? CUBATURE_COARSE : CUBATURE_MIDDLE];
-    else if (least >= PLAIN_MIDDLE && most < PLAIN_FINE)
-        r.square = &cubatures[CUBATURE_SQUARE][CUBATURE_FINE];
-    else
+    else if (least < PLAIN_MIDDLE || most >= PLAIN_FINE)
         r.rows = &gauss_rule[(least >= PLAIN_SLIGHT) + (least >= PLAIN_COARSE) + (least >= PLAIN_MIDDLE) +
                              (least >= PLAIN_FINE)];
     return r;

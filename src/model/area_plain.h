@@ -131,17 +131,21 @@ typedef struct plain_extent {
     vfloat off_plane;     /* how far the point is from the plane of the light */
 } plain_extent;
 
-/* The inverse distances of what bends all lobes alike: masking, near the horizon; solid angles, near the light, whose
- * distance along the light's plane is a fit. */
+/* The inverse distances of what bends all lobes alike: masking, near the horizon; solid angles, near the light, where
+ * slopes are not linear over it either, which is why they count more: a fit; and half vectors, whose density is
+ * infinite opposite to the viewer, below the horizon. */
 typedef struct plain_nearness {
-    vfloat of_horizon, of_light;
+    vfloat of_horizon, of_poles;
 } plain_nearness;
 
 static inline plain_nearness plain_nearness_of(const area_lobe *l, vfloat3 middle, const plain_extent *e)
 {
     const vfloat lowest = middle.z - e->height, alpha = min_f(l->alpha_x, l->alpha_y);
+    const vfloat3 h = add_3(middle, l->wo);
+    const vfloat to_light = (1.0F / 1.6F) * max_f(1.0F - e->reach, e->off_plane),
+                 to_opposite = max_f(sqrt_f(dot_3(h, h)) - e->reach, lowest + l->wo.z);
     return (plain_nearness){ 1.0F / sqrt_f(lowest * lowest + alpha * alpha),
-                             1.3F / max_f(max_f(1.0F - e->reach, e->off_plane), splat(1e-3F)) };
+                             1.0F / max_f(min_f(to_light, to_opposite), splat(1e-3F)) };
 }
 
 /* Size over distance of the nearest singularity along an axis that goes so far from the middle, in all and up or down.
@@ -150,7 +154,7 @@ static inline vfloat plain_bend_along(const area_lobe *l, vfloat3 middle, vfloat
                                       const plain_nearness *near)
 {
     return max_f(plain_bend_of_density(l, middle, size, reach),
-                 max_f(size * near->of_light, height * near->of_horizon));
+                 max_f(size * near->of_poles, height * near->of_horizon));
 }
 
 /* Of the longer axis. */
