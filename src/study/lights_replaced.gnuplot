@@ -13,7 +13,7 @@ set bmargin at screen 0.25
 of(roughness, column_) = abs(column(1) - roughness) < 1e-3 ? column(column_) : NaN
 set datafile missing NaN
 roughness(k) = real(word('0.3 0.6', k))
-plot [-2.5:1.4] [0.97:1.03] \
+plot [-2.5:1.4] [0.994:1.006] \
     for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 3)) axes x1y2 with lines linetype 7 linewidth 1 \
         dashtype k title k == 1 ? 'highlight (right)' : '', \
     for [k = 1:2] 'lights_replaced.csv' using 2:(of(roughness(k), 5)) with lines linetype 1 \
