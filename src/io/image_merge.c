@@ -43,7 +43,7 @@ static bool begin(merging *m, const image *tile, report *r)
     for (int c = 0; c < tile->channel_count; ++c)
         if (!image_name_channel(m->out, c, tile->channel_names[c], m->paths[0], r))
             return false;
-    m->owner = calloc((size_t)tile->full_width * (size_t)tile->full_height, sizeof *m->owner);
+    m->owner = calloc((size_t)m->out->width * (size_t)m->out->height, sizeof *m->owner);
     return m->owner ? true : report_error(r, "%s: the picture of this tile does not fit into memory", m->paths[0]);
 }
 
@@ -151,7 +151,7 @@ static bool merge(merging *m, int count, report *r)
 {
     for (int i = 0; i < count; ++i) {
         image tile;
-        const bool done = read_tile(m->paths[i], &tile, r) && (i > 0 || begin(m, &tile, r)) &&
+        const bool done = read_tile(m->paths[i], &tile, r) && (m->owner || begin(m, &tile, r)) &&
                           check_size(m, i, &tile, r) && place_tile(m, i, &tile, r);
         image_free(&tile);
         if (!done)
