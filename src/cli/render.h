@@ -41,6 +41,8 @@ enum { RENDER_RULE_COUNT = 21, RENDER_OWN_RULES = 5, PLAN_OWN_RULES = 1 };
 extern const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES];
 render_values render_defaults(void);
 double render_accuracy(const render_values *v);
+/* NAN is what was not given. */
+double render_number_or(double given, double otherwise);
 
 bool render_read_scene(const char *path, const render_values *v, scene *s, report *r);
 
@@ -72,13 +74,27 @@ document *plan_document(const glint_plan *plan, const scene *s);
 /* Warns where the plan does not meet its budget. */
 void plan_warn(const glint_plan *plan, double budget, report *r);
 
+/* ---- render_metadata.c ---- */
+
+/* Texts that a picture carries; numbers holds those that are. */
+typedef struct render_metadata {
+    image_text items[24];
+    size_t count, used;
+    char numbers[512];
+    char *materials;
+} render_metadata;
+
+/* samples 0: the plan has not chosen them yet, and nothing is said of them. */
+bool render_metadata_make(const render_record *record, int samples, render_metadata *out, report *r);
+void render_metadata_free(render_metadata *m);
+bool render_writes_png(const render_values *v);
+
 /* ---- render_record.c ---- */
 
 /* The choices of --facets, in the order of preview_facets. */
 const char *render_facets_name(int index);
 
-/* Writes the picture with the settings that its pixels depend on as metadata: no time, no place, no number of threads,
- * so that the same command gives the same bytes anywhere. */
+/* Writes the picture with its metadata. */
 bool render_write(const render_record *record, const image *picture, report *r);
 
 /* The document of --json; takes the warnings. */

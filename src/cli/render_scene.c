@@ -217,9 +217,14 @@ render_values render_defaults(void)
                             .environment_exposure_ev = (double)NAN };
 }
 
+double render_number_or(double given, double otherwise)
+{
+    return isnan(given) ? otherwise : given;
+}
+
 double render_accuracy(const render_values *v)
 {
-    return isnan(v->accuracy) ? ACCURACY_DEFAULT : v->accuracy;
+    return render_number_or(v->accuracy, ACCURACY_DEFAULT);
 }
 
 /* Who asks for an accuracy and for no number of samples wants as many as it takes: 0, the plan chooses. */
