@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "cli/render.h"
 
@@ -59,6 +60,13 @@ static void add_place(render_metadata *m, const render_values *v)
                whole ? v->size[0] : v->tile[2], whole ? v->size[1] : v->tile[3]);
 }
 
+static void add_frame(render_metadata *m, const render_record *record)
+{
+    add_format(m, "glint:frame", "%" PRId64, record->frame);
+    add_format(m, "glint:fps", "%.9g", render_number_or(record->values->fps, RENDER_FPS));
+    add(m, "glint:animation", record->values->animation ? record->values->animation : "");
+}
+
 bool render_writes_png(const render_values *v)
 {
     const char *extension = strrchr(v->output, '.');
@@ -88,10 +96,62 @@ bool render_metadata_make(const render_record *record, int samples, render_metad
         add_format(out, "glint:exposure", "%.9g", render_number_or(v->exposure_ev, 0.0));
     else
         add(out, "glint:aov", v->aov ? "on" : "off");
+    if (record->frame >= 0)
+        add_frame(out, record);
     return true;
 }
 
 void render_metadata_free(render_metadata *m)
 {
     free(m->materials);
+}
+
+/* ---- the other way: is this the picture that would be rendered? ---- */
+
+typedef struct finding {
+    const char *path;
+    const render_metadata *expected;
+    size_t found;
+    report *r;
+    bool good;
+} finding;
+
+static void compare(const image_text *text, void *user)
+{
+    finding *f = user;
+    for (size_t i = 0; i < f->expected->count && f->good; ++i) {
+        const image_text *expected = &f->expected->items[i];
+        if (strcmp(expected->key, text->key) != 0)
+            continue;
+        ++f->found;
+        if (strcmp(expected->value, text->value) != 0)
+            f->good =
+                report_error(f->r, "%s: was rendered with %s \"%s\", expected \"%s\"; --overwrite renders it again",
+                             f->path, text->key, text->value, expected->value);
+    }
+}
+
+static bool look_into(const char *path, const render_metadata *expected, report *r)
+{
+    report said = { 0 };
+    finding f = { .path = path, .expected = expected, .r = r, .good = true };
+    if (!image_read_metadata(path, compare, &f, &said))
+        return report_error(r, "%s; --overwrite renders it again", said.error);
+    if (f.good && f.found < expected->count)
+        return report_error(r, "%s: is there and no frame that this glint has rendered; --overwrite replaces it", path);
+    return f.good;
+}
+
+bool render_is_finished(const render_record *record, bool *finished, report *r)
+{
+    const char *path = record->values->output;
+    render_metadata expected;
+    *finished = false;
+    if (access(path, F_OK) != 0)
+        return true;
+    if (!render_metadata_make(record, render_samples(record->values), &expected, r))
+        return false;
+    *finished = look_into(path, &expected, r);
+    render_metadata_free(&expected);
+    return *finished;
 }

@@ -59,17 +59,16 @@ static document *integers(const int64_t *values, int count)
     return d;
 }
 
-int render_print_document(const render_record *record, document *warnings)
+/* What every picture of the command shares. */
+static document *settings_document(const render_record *record)
 {
     const render_values *v = record->values;
-    const preview_statistics *s = &record->statistics;
-    document *d = document_object(), *rays = document_object(), *evals = document_object();
+    document *d = document_object();
     document_set_text(d, "file", record->file);
     document_set_text(d, "output", v->output);
     document_set(d, "size", integers(v->size, 2));
     if (v->tile[2] > 0)
         document_set(d, "tile", integers(v->tile, 4));
-    document_set_integer(d, "spp", (uint64_t)s->samples);
     document_set_number(d, "accuracy", render_accuracy(v));
     document_set_text(d, "model", arguments_model_choice(v->model));
     document_set_text(d, "facets", render_facets_name(v->facets));
@@ -81,6 +80,15 @@ int render_print_document(const render_record *record, document *warnings)
         document_set_number(d, "environment_rotation_deg", render_number_or(v->environment_rotation_deg, 0.0));
         document_set_number(d, "environment_exposure_ev", render_number_or(v->environment_exposure_ev, 0.0));
     }
+    return d;
+}
+
+/* Takes the plan. */
+static void set_outcome(document *d, const render_record *record)
+{
+    const preview_statistics *s = &record->statistics;
+    document *rays = document_object(), *evals = document_object();
+    document_set_integer(d, "spp", (uint64_t)s->samples);
     document_set(d, "seconds", seconds_of(record));
     document_set_integer(rays, "camera", s->camera_rays);
     document_set_integer(rays, "shadow", s->shadow_rays);
@@ -91,6 +99,42 @@ int render_print_document(const render_record *record, document *warnings)
     document_set(d, "evals", evals);
     if (record->plan)
         document_set(d, "plan", record->plan);
+}
+
+int render_print_document(const render_record *record, document *warnings)
+{
+    document *d = settings_document(record);
+    set_outcome(d, record);
+    document_set_integer(d, "peak_memory_bytes", peak_memory_bytes());
+    document_set(d, "warnings", warnings);
+    return print_document(d);
+}
+
+document *render_frame_document(const render_record *record, bool skipped)
+{
+    document *d = document_object();
+    document_set_integer(d, "frame", (uint64_t)record->frame);
+    document_set_number(d, "time_s", render_frame_time_s(record->values, record->frame));
+    document_set_text(d, "output", record->values->output);
+    document_set_boolean(d, "skipped", skipped);
+    if (!skipped)
+        set_outcome(d, record);
+    return d;
+}
+
+int render_print_frames(const render_record *all, document *frames, int64_t rendered, int64_t skipped,
+                        document *warnings)
+{
+    document *d = settings_document(all), *seconds = document_object();
+    document_set_number(d, "fps", render_number_or(all->values->fps, RENDER_FPS));
+    if (all->values->animation)
+        document_set_text(d, "animation", all->values->animation);
+    document_set(d, "frames", frames);
+    document_set_integer(d, "rendered", (uint64_t)rendered);
+    document_set_integer(d, "skipped", (uint64_t)skipped);
+    document_set_number(seconds, "read", all->read_s);
+    document_set_number(seconds, "total", all->total_s);
+    document_set(d, "seconds", seconds);
     document_set_integer(d, "peak_memory_bytes", peak_memory_bytes());
     document_set(d, "warnings", warnings);
     return print_document(d);

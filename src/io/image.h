@@ -54,8 +54,8 @@ bool image_write_png(const char *path, const image *i, float exposure_ev, report
 bool image_write_png_with_metadata(const char *path, const image *i, float exposure_ev, const image_text *metadata,
                                    size_t metadata_count, report *r);
 
-/* Visits the texts in the metadata of an OpenEXR file or a PNG, in no order; pixels are not read. What is broken, or a
- * file of another kind, is an error. */
+/* Visits the texts in the metadata of an OpenEXR file or a PNG, in no order. Pixels are not read, but a file that ends
+ * too early is broken, which is an error, as a file of another kind is. */
 bool image_read_metadata(const char *path, void (*visit)(const image_text *text, void *user), void *user, report *r);
 
 /* Data, as a texture of normals is: RGB, row 0 on top, no colour space; the file has 8 or 16 bits. Atomic, too. */

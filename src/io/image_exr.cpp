@@ -3,6 +3,7 @@
 #include <new>
 #include <thread>
 
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -101,14 +102,24 @@ void visit_texts(const Imf::Header &header, void (*visit)(const image_text *text
         }
 }
 
+/* Throws where the file ends too early: rows are written from the first to the last. */
+void check_end(Imf::InputFile &file)
+{
+    const char *bytes = nullptr;
+    int byte_count = 0;
+    if (!file.isComplete())
+        throw Iex::InputExc("rows are missing");
+    if (!file.header().hasTileDescription())
+        file.rawPixelData(file.header().dataWindow().max.y, bytes, byte_count);
+}
+
 } // namespace
 
 bool image_exr_metadata(const char *path, void (*visit)(const image_text *text, void *user), void *user, report *r)
 {
     try {
-        const Imf::InputFile file(path, 0);
-        if (!file.isComplete())
-            return report_error(r, "%s: is broken: rows are missing", path);
+        Imf::InputFile file(path, 0);
+        check_end(file);
         visit_texts(file.header(), visit, user);
         return true;
     } catch (const std::bad_alloc &) {

@@ -40,8 +40,10 @@ static bool begin(merging *m, const image *tile, report *r)
 {
     if (!image_allocate(m->out, tile->full_width, tile->full_height, tile->channel_count, r))
         return false;
-    memcpy(m->out->channel_names, tile->channel_names, (size_t)tile->channel_count * sizeof *tile->channel_names);
-    m->owner = calloc((size_t)tile->full_width * (size_t)tile->full_height, sizeof *m->owner);
+    for (int c = 0; c < tile->channel_count; ++c)
+        if (!image_name_channel(m->out, c, tile->channel_names[c], m->paths[0], r))
+            return false;
+    m->owner = calloc((size_t)m->out->width * (size_t)m->out->height, sizeof *m->owner);
     return m->owner ? true : report_error(r, "%s: the picture of this tile does not fit into memory", m->paths[0]);
 }
 
@@ -69,13 +71,20 @@ static bool match_channels(const merging *m, int number, const image *tile, int 
     return true;
 }
 
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 /* The bits decide: NaN agrees with itself. */
 static bool check_overlap(const merging *m, int number, size_t at, const float *pixel, report *r)
 {
     const image *out = m->out;
     const float *there = &out->pixels[at * (size_t)out->channel_count];
     for (int c = 0; c < out->channel_count; ++c)
-        if (memcmp(&there[c], &pixel[c], sizeof *pixel) != 0)
+        if (bits_of(there[c]) != bits_of(pixel[c]))
             return report_error(r, "%s: %s of pixel %zu,%zu is %.9g, expected the %.9g of %s", m->paths[number],
                                 out->channel_names[c], at % (size_t)out->width, at / (size_t)out->width,
                                 (double)pixel[c], (double)there[c], m->paths[m->owner[at] - 1]);
@@ -142,13 +151,13 @@ static bool merge(merging *m, int count, report *r)
 {
     for (int i = 0; i < count; ++i) {
         image tile;
-        const bool done = read_tile(m->paths[i], &tile, r) && (i > 0 || begin(m, &tile, r)) &&
+        const bool done = read_tile(m->paths[i], &tile, r) && (m->owner || begin(m, &tile, r)) &&
                           check_size(m, i, &tile, r) && place_tile(m, i, &tile, r);
         image_free(&tile);
         if (!done)
             return false;
     }
-    return check_whole(m, r);
+    return m->owner ? check_whole(m, r) : report_error(r, "there are no tiles to merge");
 }
 
 bool image_merge(const char *const *paths, int count, image *out, report *r)

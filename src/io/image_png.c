@@ -185,6 +185,16 @@ static bool decode_texts(png_structp png, png_infop info, FILE *in, png_textp *t
     return true;
 }
 
+/* Every PNG ends in the same chunk. */
+static bool has_end(FILE *in)
+{
+    static const unsigned char last[] = { 0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82 };
+    unsigned char bytes[sizeof last];
+    const bool read = fseek(in, -(long)sizeof last, SEEK_END) == 0 && fread(bytes, 1, sizeof bytes, in) == sizeof bytes;
+    rewind(in);
+    return read && memcmp(bytes, last, sizeof last) == 0;
+}
+
 bool image_png_metadata(const char *path, void (*visit)(const image_text *text, void *user), void *user, report *r)
 {
     FILE *in = fopen(path, "rb");
@@ -195,8 +205,9 @@ bool image_png_metadata(const char *path, void (*visit)(const image_text *text, 
     png_infop info = png ? png_create_info_struct(png) : NULL;
     png_textp texts = NULL;
     int count = 0;
-    const bool done =
-        info ? decode_texts(png, info, in, &texts, &count) : report_error(r, "%s: does not fit into memory", path);
+    const bool whole = has_end(in) || report_error(r, "%s: is broken: its end is missing", path);
+    const bool done = whole && (info ? decode_texts(png, info, in, &texts, &count)
+                                     : report_error(r, "%s: does not fit into memory", path));
     for (int i = 0; done && i < count; i++) {
         const image_text found = { texts[i].key, texts[i].text };
         visit(&found, user);

@@ -84,7 +84,7 @@ static void write_part(const char *path, int x, int width, float first, float va
     report r = { 0 };
     image i;
     assert_true(image_allocate(&i, width, 2, 1, &r));
-    strcpy(i.channel_names[0], "Y");
+    assert_true(image_name_channel(&i, 0, "Y", path, &r));
     for (int k = 0; k < 2 * width; ++k)
         i.pixels[k] = k == 0 ? first : value;
     i.x = x;
