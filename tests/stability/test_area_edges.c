@@ -111,8 +111,8 @@ static void a_light_seen_edge_on_fades_and_goes_out(void **state)
         }
 }
 
-/* In any direction: half_x is half of the way to the middle, exactly, so that the plane holds the point; what doubles
- * make of the distance is rounding, and no light. */
+/* In any direction: a half axis is half of the way to the middle, exactly, so that the plane holds the point; what
+ * doubles make of the distance is rounding, and no light. */
 static void a_light_in_a_plane_through_the_point_is_dark(void **state)
 {
     (void)state;
