@@ -79,11 +79,17 @@ static void lit_factors(const grid_point *grid, const vint *lane, vfloat facets,
     const vfloat dither = angular_dither(counting_read_u(grid->cell, lane));
     vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
     for (int g = 0; g < GRID_COUNT; g++) {
-        vuint cell[GRID_CELLS];
-        vfloat weight[GRID_CELLS], of_grid[3];
-        for (int c = 0; c < GRID_CELLS; c++) {
-            cell[c] = counting_read_u(grid->cell + GRID_CELLS * g + c, lane);
-            weight[c] = counting_read_f(grid->weight + GRID_CELLS * g + c, lane);
+        const vuint *cell = grid->cell + GRID_CELLS * g;
+        const vfloat *weight = grid->weight + GRID_CELLS * g;
+        vuint picked[GRID_CELLS];
+        vfloat picked_weight[GRID_CELLS], of_grid[3];
+        for (int c = 0; lane && c < GRID_CELLS; c++) {
+            picked[c] = counting_read_u(cell + c, lane);
+            picked_weight[c] = counting_read_f(weight + c, lane);
+        }
+        if (lane) {
+            cell = picked;
+            weight = picked_weight;
         }
         sum = sum + count_grid(&lattice, cell, weight, dither, &chance, drawn * counting_read_f(grid->share + g, lane),
                                palette, of_grid);
