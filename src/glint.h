@@ -99,7 +99,8 @@ typedef enum glint_weighting {
                                             flakes */
 } glint_weighting;
 
-/* Which facets there are, for the explicit model: those that another renderer draws with the same cells and seed. */
+/* Which facets there are, for the explicit model: those that another renderer draws with the same cells and seed. White
+ * Noise knows seeds below 2^24 apart; footprints whose seed is larger have facets that no other renderer draws. */
 typedef enum glint_facet_hash {
     GLINT_FACET_HASH_CYCLES = 0, /* Blender's White Noise texture */
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */

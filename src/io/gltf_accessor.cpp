@@ -202,9 +202,11 @@ void check_finite(const std::vector<float> &numbers, size_t components, const st
         wrong += std::isfinite(x) ? 0U : 1U;
     for (size_t i = 0; wrong > 0 && i < numbers.size(); i++)
         if (!std::isfinite(numbers[i]))
-            throw file_error(pointer, std::string("found ") + (std::isnan(numbers[i]) ? "NaN" : "infinity") +
-                                          " in element " + std::to_string(i / components) +
-                                          ", expected finite numbers");
+            throw file_error(
+                pointer,
+                std::string("found ") + (std::isnan(numbers[i]) ? "NaN" : "infinity") +
+                    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): the schema leaves no type without components
+                    " in element " + std::to_string(i / components) + ", expected finite numbers");
 }
 
 template <class T> void widen(const element_view &elements, std::vector<uint32_t> &out)
