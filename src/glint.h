@@ -99,7 +99,8 @@ typedef enum glint_weighting {
                                             flakes */
 } glint_weighting;
 
-/* Which facets there are, for the explicit model: those that another renderer draws with the same cells and seed. */
+/* Which facets there are, for the explicit model: those that another renderer draws with the same cells and seed. White
+ * Noise knows seeds below 2^24 apart; footprints whose seed is larger have facets that no other renderer draws. */
 typedef enum glint_facet_hash {
     GLINT_FACET_HASH_CYCLES = 0, /* Blender's White Noise texture */
     GLINT_FACET_HASH_POVRAY      /* the cube modulo 94906247 of POV-Ray's glint.inc */
@@ -120,8 +121,8 @@ typedef enum glint_area_light_method {
     /* A few points of a light that is small beside the lobe; of others linearly transformed cosines, or, where alpha_x
      * and alpha_y differ, as exact. */
     GLINT_AREA_LIGHT_FAST = 0,
-    GLINT_AREA_LIGHT_EXACT /* points where they leave about 1e-6, adaptive quadrature with an error below 1 % elsewhere
-                            */
+    GLINT_AREA_LIGHT_EXACT /* points where they leave about 1e-6, adaptive quadrature elsewhere, within 1 % of all but
+                            * one light in ten thousand */
 } glint_area_light_method;
 
 /* The upper layer of a layered material at one point. */

@@ -134,6 +134,22 @@ static bool set_integers(const argument_syntax *syntax, const argument_rule *rul
                   rule->min, rule->max);
 }
 
+static bool set_range(const argument_syntax *syntax, const argument_rule *rule, const char *text, int64_t *target)
+{
+    const char *rest = text;
+    bool good = scan_integer(&rest, &target[0]);
+    target[1] = target[0];
+    if (good && *rest == '-') {
+        ++rest;
+        good = scan_integer(&rest, &target[1]);
+    }
+    if (good && *rest == '\0' && target[0] <= target[1] && (double)target[0] >= rule->min &&
+        (double)target[1] <= rule->max)
+        return true;
+    return refuse(syntax, "--%s '%s': expected %s, whole numbers from %.0f to %.0f, the first not above the last",
+                  rule->name, text, rule->value, rule->min, rule->max);
+}
+
 static bool set_number(const argument_syntax *syntax, const argument_rule *rule, const char *text, double *target)
 {
     /* strtod alone would also take leading blanks, hexadecimal, "inf" and "nan". */
@@ -199,6 +215,8 @@ static bool set_value(const argument_syntax *syntax, const argument_rule *rule, 
         return set_number(syntax, rule, text, target);
     case ARGUMENT_INTEGERS:
         return set_integers(syntax, rule, text, target);
+    case ARGUMENT_RANGE:
+        return set_range(syntax, rule, text, target);
     case ARGUMENT_CHOICE:
         return set_choice(syntax, rule, text, target);
     case ARGUMENT_ASSIGNMENT:

@@ -13,6 +13,7 @@ typedef enum argument_kind {
     ARGUMENT_TEXT,      /* any text but the empty one; target const char * */
     ARGUMENT_NUMBER,    /* a finite decimal number in [min, max]; target double */
     ARGUMENT_INTEGERS,  /* count whole numbers in [min, max] with separator between; target int64_t[count] */
+    ARGUMENT_RANGE,     /* A-B, or A for A-A: whole numbers in [min, max], A <= B; target int64_t[2] */
     ARGUMENT_CHOICE,    /* one of the names choice(0), choice(1) ... up to NULL; target int, the index */
     ARGUMENT_ASSIGNMENT /* NAME=VALUE, repeatable; target assignments */
 } argument_kind;

@@ -19,6 +19,7 @@ int command_export_gltf(int argc, char **argv);
 int command_export_povray(int argc, char **argv);
 int command_inspect(int argc, char **argv);
 int command_materials(int argc, char **argv);
+int command_merge(int argc, char **argv);
 int command_plan(int argc, char **argv);
 int command_study(int argc, char **argv);
 int command_validate(int argc, char **argv);

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A signal handler reaches nothing but objects of static life: the only state of the command. */
+/* A signal handler reaches nothing but objects of static life: state of the command that nobody passes on. */
 static atomic_bool interrupted;
 static volatile sig_atomic_t caught_signal;
 
@@ -28,8 +28,12 @@ static void catch_once(int number)
 
 const atomic_bool *interrupt_watch(void)
 {
-    catch_once(SIGINT);
-    catch_once(SIGTERM);
+    static bool watching;
+    if (!watching) {
+        watching = true;
+        catch_once(SIGINT);
+        catch_once(SIGTERM);
+    }
     return &interrupted;
 }
 

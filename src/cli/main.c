@@ -13,6 +13,7 @@ static const struct subcommand {
     int (*run)(int argc, char **argv);
 } subcommands[] = {
     { "render", "render a glTF scene to OpenEXR or PNG", command_render },
+    { "merge", "put the tiles of a picture together", command_merge },
     { "plan", "say what a render would do, leave out and cost", command_plan },
     { "compare", "hold a picture against another, with a report", command_compare },
     { "eval", "evaluate a material for queries on standard input", command_eval },

@@ -53,11 +53,11 @@ document *plan_document(const glint_plan *plan, const scene *s)
 
 /* ---- for people ---- */
 
-void plan_warn(const glint_plan *plan, double budget, report *r)
+bool plan_warn(const glint_plan *plan, double budget, report *r)
 {
     const glint_plan_outcome out = glint_plan_result(plan);
     if (out.is_met || !(budget > 0.0))
-        return;
+        return false;
     if (out.enough_samples > 0)
         report_warning(r,
                        "--accuracy %g is not met: %u samples a pixel leave noise of about %.2g, what is left out adds "
@@ -65,6 +65,7 @@ void plan_warn(const glint_plan *plan, double budget, report *r)
                        budget, out.samples, (double)out.noise, (double)out.error, out.enough_samples);
     else
         report_warning(r, "--accuracy %g is not met: what is left out comes to %.2g", budget, (double)out.error);
+    return true;
 }
 
 static int print_plan_document(const glint_plan *plan, const scene *s, const char *path, const render_values *v,

@@ -5,7 +5,6 @@
 #include <strings.h>
 
 #include "cli/interrupt.h"
-#include "cli/progress.h"
 #include "cli/render.h"
 #include "io/output_file.h"
 
@@ -25,6 +24,20 @@ static bool ends_in(const char *path, const char *extension)
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
 
+static int check_frames(const render_values *v)
+{
+    if (v->frames[0] >= 0)
+        return COMMAND_DONE;
+    if (!isnan(v->fps))
+        return arguments_wrong(&syntax, "--fps: there are no --frames to time");
+    if (v->animation)
+        return arguments_wrong(&syntax, "--animation: there are no --frames to show it");
+    if (v->overwrite)
+        return arguments_wrong(&syntax,
+                               "--overwrite: there are no --frames to keep; a single picture is always replaced");
+    return COMMAND_DONE;
+}
+
 /* What the table cannot say because it concerns two options. Returns an exit code. */
 static int check_usage(const render_values *v)
 {
@@ -37,7 +50,7 @@ static int check_usage(const render_values *v)
         return arguments_wrong(&syntax, "--aov: a PNG holds no further channels; write an .exr");
     if (!png && !isnan(v->exposure_ev))
         return arguments_wrong(&syntax, "--exposure: an EXR is scene-linear; the exposure is for a .png");
-    if (render_light_check(&syntax, v) != COMMAND_DONE)
+    if (check_frames(v) != COMMAND_DONE || render_light_check(&syntax, v) != COMMAND_DONE)
         return COMMAND_WRONG_USAGE;
     const int64_t *t = v->tile;
     const bool given = t[0] || t[1] || t[2] || t[3];
@@ -48,59 +61,70 @@ static int check_usage(const render_values *v)
     return COMMAND_DONE;
 }
 
-/* What the renderer reports to. */
-typedef struct render_watcher {
-    progress bar;
-    render_record *record;
-} render_watcher;
-
+/* Of all frames, where there are several: what is left is as fast as what was. */
 static void watch_progress(double fraction, double elapsed_s, double left_s, void *user)
 {
-    progress_update(fraction, elapsed_s, left_s, &((render_watcher *)user)->bar);
+    render_record *const record = user;
+    const render_course *const course = record->course;
+    if (course) {
+        fraction = ((double)course->done + fraction) / (double)course->count;
+        elapsed_s = clock_s() - course->start_s;
+        left_s = fraction > 0.0 ? elapsed_s / fraction - elapsed_s : -1.0;
+    }
+    progress_update(fraction, elapsed_s, left_s, &record->bar);
 }
 
 /* The plan's decisions as a document, or a warning where its budget cannot be met. */
 static void take_plan(const glint_plan *plan, void *user)
 {
-    render_record *const record = ((render_watcher *)user)->record;
+    render_record *const record = user;
     if (plan == NULL)
         return;
     if (record->values->json)
         record->plan = plan_document(plan, record->scene);
+    report silent = { 0 };
     if (!isnan(record->values->accuracy))
-        plan_warn(plan, record->values->accuracy, record->report);
+        record->unmet = plan_warn(plan, record->values->accuracy, record->quiet ? &silent : record->report);
 }
 
-static bool render_scene(scene *s, render_record *record, const atomic_bool *cancel, image *picture, report *r)
+bool render_picture(render_record *record, const scene *s, preview_options *options, image *picture, report *r)
 {
-    render_watcher watcher = { .bar = progress_begin(stderr), .record = record };
-    preview_options options;
-    render_light light = { 0 };
+    const atomic_bool *const cancel = interrupt_watch();
     record->scene = s;
     record->report = r;
-    bool done = render_options(record->values, s, &light, &options, r);
-    options.progress = watch_progress;
+    options->progress = watch_progress;
+    options->planned = NULL;
     if (record->values->json || !isnan(record->values->accuracy))
-        options.planned = take_plan; /* else what it says of noise is not measured */
-    options.user = &watcher;
-    options.cancel = cancel;
-    done = done && preview_render(s, &options, picture, &record->statistics, r);
-    progress_end(&watcher.bar);
+        options->planned = take_plan; /* else what it says of noise is not measured */
+    options->user = record;
+    options->cancel = cancel;
+    return preview_render(s, options, picture, &record->statistics, r) && !atomic_load(cancel);
+}
+
+static bool render_scene(scene *s, render_record *record, image *picture, report *r)
+{
+    preview_options options;
+    render_light light = { 0 };
+    record->bar = progress_begin(stderr);
+    const bool done =
+        render_options(record->values, s, &light, &options, r) && render_picture(record, s, &options, picture, r);
+    progress_end(&record->bar);
     render_light_end(&light);
-    return done && !atomic_load(cancel);
+    return done;
 }
 
 /* From the file to the picture. False after an error, and after an interruption, which leaves the report empty. */
-static bool produce(render_record *record, const atomic_bool *cancel, report *r)
+static bool produce(render_record *record, report *r)
 {
     const double start_s = clock_s();
+    const atomic_bool *const cancel = interrupt_watch();
     if (!output_file_check(record->values->output, r))
         return false;
     scene s = { 0 };
     image picture = { 0 };
     bool done = render_read_scene(record->file, record->values, &s, r) && !atomic_load(cancel);
     record->read_s = clock_s() - start_s;
-    done = done && render_scene(&s, record, cancel, &picture, r);
+    done = done && render_scene(&s, record, &picture, r);
     scene_free(&s);
     const double write_start_s = clock_s();
     done = done && render_write(record, &picture, r);
@@ -114,8 +138,8 @@ static int render(const char *path, const render_values *values)
 {
     messages m;
     messages_begin(&m, values->json);
-    render_record record = { .file = path, .values = values };
-    if (produce(&record, interrupt_watch(), &m.report)) {
+    render_record record = { .file = path, .values = values, .frame = -1 };
+    if (produce(&record, &m.report)) {
         if (values->json) {
             const int code = render_print_document(&record, m.warnings);
             m.warnings = NULL;
@@ -146,7 +170,7 @@ int command_render(int argc, char **argv)
     case ARGUMENTS_OK:
         code = check_usage(&values);
         if (code == COMMAND_DONE)
-            code = render(path, &values);
+            code = values.frames[0] < 0 ? render(path, &values) : render_frames(path, &values);
         break;
     }
     assignments_free(&values.materials);

@@ -40,8 +40,8 @@ static bool use_environment(const render_values *v, render_light *light, preview
         return true;
     if (!environment_map_read(v->environment, &light->map, r))
         return false;
-    const double half_turn = isnan(v->environment_rotation_deg) ? 0.0 : v->environment_rotation_deg * PI / 360.0;
-    const double exposure_ev = isnan(v->environment_exposure_ev) ? 0.0 : v->environment_exposure_ev;
+    const double half_turn = render_number_or(v->environment_rotation_deg, 0.0) * PI / 360.0;
+    const double exposure_ev = render_number_or(v->environment_exposure_ev, 0.0);
     light->environment = (preview_environment){ &light->map,
                                                 { 0.0F, (float)sin(half_turn), 0.0F, (float)cos(half_turn) },
                                                 (float)exp2(exposure_ev) };

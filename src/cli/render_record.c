@@ -1,9 +1,5 @@
-/* What a render leaves besides its pixels: metadata in the picture, a JSON document or a line on standard output. */
+/* What a render leaves: its picture, and a JSON document or a line on standard output. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-#include <strings.h>
 #include <sys/resource.h>
 
 #include "cli/render.h"
@@ -15,76 +11,32 @@ static uint64_t peak_memory_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024U : 0U;
 }
 
-/* "NAME=PRESET, NAME=PRESET"; NULL without memory. */
-static char *join_materials(const assignments *a)
+/* A tile says where it lies. */
+static image placed(const image *picture, const render_values *v)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return NULL;
-    for (size_t i = 0; i < a->count; ++i)
-        fprintf(out, "%s%s=%s", i == 0 ? "" : ", ", a->items[i].name, a->items[i].value);
-    if (fclose(out) == 0)
-        return text;
-    free(text);
-    return NULL;
-}
-
-static double number_or(double given, double otherwise)
-{
-    return isnan(given) ? otherwise : given;
-}
-
-static bool write_exr(const render_record *record, const image *picture, report *r)
-{
-    const render_values *v = record->values;
-    char *materials = join_materials(&v->materials);
-    if (!materials)
-        return report_error(r, "%s: out of memory", v->output);
-    char size[48], tile[96], spp[24], seed[24], bounces[24];
-    snprintf(size, sizeof size, "%" PRId64 "x%" PRId64, v->size[0], v->size[1]);
-    const bool whole = v->tile[2] == 0;
-    snprintf(tile, sizeof tile, "%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64, v->tile[0], v->tile[1],
-             whole ? v->size[0] : v->tile[2], whole ? v->size[1] : v->tile[3]);
-    snprintf(spp, sizeof spp, "%d", record->statistics.samples);
-    snprintf(seed, sizeof seed, "%" PRId64, v->seed);
-    snprintf(bounces, sizeof bounces, "%" PRId64, v->bounces);
-    char rotation[32], exposure[32], accuracy[32];
-    snprintf(accuracy, sizeof accuracy, "%.9g", render_accuracy(v));
-    snprintf(rotation, sizeof rotation, "%.9g", number_or(v->environment_rotation_deg, 0.0));
-    snprintf(exposure, sizeof exposure, "%.9g", number_or(v->environment_exposure_ev, 0.0));
-    const image_text metadata[] = {
-        { "glint:version", glint_version() },
-        { "glint:model", arguments_model_choice(v->model) },
-        { "glint:facets", render_facets_name(v->facets) },
-        { "glint:size", size },
-        { "glint:tile", tile },
-        { "glint:spp", spp },
-        { "glint:accuracy", accuracy },
-        { "glint:seed", seed },
-        { "glint:bounces", bounces },
-        { "glint:camera", v->camera ? v->camera : "" },
-        { "glint:variant", v->variant ? v->variant : "" },
-        { "glint:materials", materials },
-        { "glint:light-set", render_light_set(v->light_set) },
-        { "glint:environment", v->environment ? v->environment : "" },
-        { "glint:environment-rotation", rotation },
-        { "glint:environment-exposure", exposure },
-        { "glint:environment-background", v->environment_background == 1 ? "off" : "on" },
-    };
-    const bool done = image_write_exr(v->output, picture, metadata, sizeof metadata / sizeof metadata[0], r);
-    free(materials);
-    return done;
+    image i = *picture;
+    if (v->tile[2] > 0) {
+        i.x = (int)v->tile[0];
+        i.y = (int)v->tile[1];
+        i.full_width = (int)v->size[0];
+        i.full_height = (int)v->size[1];
+    }
+    return i;
 }
 
 bool render_write(const render_record *record, const image *picture, report *r)
 {
     const render_values *v = record->values;
-    const char *extension = strrchr(v->output, '.');
-    if (strcasecmp(extension, ".exr") == 0)
-        return write_exr(record, picture, r);
-    return image_write_png(v->output, picture, isnan(v->exposure_ev) ? 0.0F : (float)v->exposure_ev, r);
+    const image i = placed(picture, v);
+    render_metadata metadata;
+    if (!render_metadata_make(record, record->statistics.samples, &metadata, r))
+        return false;
+    const bool done = render_writes_png(v)
+                          ? image_write_png_with_metadata(v->output, &i, (float)render_number_or(v->exposure_ev, 0.0),
+                                                          metadata.items, metadata.count, r)
+                          : image_write_exr(v->output, &i, metadata.items, metadata.count, r);
+    render_metadata_free(&metadata);
+    return done;
 }
 
 static document *seconds_of(const render_record *record)
@@ -107,17 +59,16 @@ static document *integers(const int64_t *values, int count)
     return d;
 }
 
-int render_print_document(const render_record *record, document *warnings)
+/* What every picture of the command shares. */
+static document *settings_document(const render_record *record)
 {
     const render_values *v = record->values;
-    const preview_statistics *s = &record->statistics;
-    document *d = document_object(), *rays = document_object(), *evals = document_object();
+    document *d = document_object();
     document_set_text(d, "file", record->file);
     document_set_text(d, "output", v->output);
     document_set(d, "size", integers(v->size, 2));
     if (v->tile[2] > 0)
         document_set(d, "tile", integers(v->tile, 4));
-    document_set_integer(d, "spp", (uint64_t)s->samples);
     document_set_number(d, "accuracy", render_accuracy(v));
     document_set_text(d, "model", arguments_model_choice(v->model));
     document_set_text(d, "facets", render_facets_name(v->facets));
@@ -126,9 +77,18 @@ int render_print_document(const render_record *record, document *warnings)
     document_set_text(d, "light_set", render_light_set(v->light_set));
     if (v->environment) {
         document_set_text(d, "environment", v->environment);
-        document_set_number(d, "environment_rotation_deg", number_or(v->environment_rotation_deg, 0.0));
-        document_set_number(d, "environment_exposure_ev", number_or(v->environment_exposure_ev, 0.0));
+        document_set_number(d, "environment_rotation_deg", render_number_or(v->environment_rotation_deg, 0.0));
+        document_set_number(d, "environment_exposure_ev", render_number_or(v->environment_exposure_ev, 0.0));
     }
+    return d;
+}
+
+/* Takes the plan. */
+static void set_outcome(document *d, const render_record *record)
+{
+    const preview_statistics *s = &record->statistics;
+    document *rays = document_object(), *evals = document_object();
+    document_set_integer(d, "spp", (uint64_t)s->samples);
     document_set(d, "seconds", seconds_of(record));
     document_set_integer(rays, "camera", s->camera_rays);
     document_set_integer(rays, "shadow", s->shadow_rays);
@@ -139,6 +99,42 @@ int render_print_document(const render_record *record, document *warnings)
     document_set(d, "evals", evals);
     if (record->plan)
         document_set(d, "plan", record->plan);
+}
+
+int render_print_document(const render_record *record, document *warnings)
+{
+    document *d = settings_document(record);
+    set_outcome(d, record);
+    document_set_integer(d, "peak_memory_bytes", peak_memory_bytes());
+    document_set(d, "warnings", warnings);
+    return print_document(d);
+}
+
+document *render_frame_document(const render_record *record, bool skipped)
+{
+    document *d = document_object();
+    document_set_integer(d, "frame", (uint64_t)record->frame);
+    document_set_number(d, "time_s", render_frame_time_s(record->values, record->frame));
+    document_set_text(d, "output", record->values->output);
+    document_set_boolean(d, "skipped", skipped);
+    if (!skipped)
+        set_outcome(d, record);
+    return d;
+}
+
+int render_print_frames(const render_record *all, document *frames, int64_t rendered, int64_t skipped,
+                        document *warnings)
+{
+    document *d = settings_document(all), *seconds = document_object();
+    document_set_number(d, "fps", render_number_or(all->values->fps, RENDER_FPS));
+    if (all->values->animation)
+        document_set_text(d, "animation", all->values->animation);
+    document_set(d, "frames", frames);
+    document_set_integer(d, "rendered", (uint64_t)rendered);
+    document_set_integer(d, "skipped", (uint64_t)skipped);
+    document_set_number(seconds, "read", all->read_s);
+    document_set_number(seconds, "total", all->total_s);
+    document_set(d, "seconds", seconds);
     document_set_integer(d, "peak_memory_bytes", peak_memory_bytes());
     document_set(d, "warnings", warnings);
     return print_document(d);

@@ -45,6 +45,29 @@ const argument_rule render_rules[RENDER_RULE_COUNT + PLAN_OWN_RULES] = {
       .min = 0,
       .max = SIZE_MAX_PX,
       .target = AT(tile) },
+    { .name = "frames",
+      .value = "A-B",
+      .help = "frames of the file's animation: OUT.0001.exr ...; finished ones are left",
+      .kind = ARGUMENT_RANGE,
+      .min = 0,
+      .max = 9999999,
+      .target = AT(frames) },
+    { .name = "fps",
+      .value = "N",
+      .help = "frame F shows the time F / N seconds; 24",
+      .kind = ARGUMENT_NUMBER,
+      .min = 0.001,
+      .max = 100000,
+      .target = AT(fps) },
+    { .name = "animation",
+      .value = "NAME|N",
+      .help = "which animation of the file; N counts from 0; all together",
+      .kind = ARGUMENT_TEXT,
+      .target = AT(animation) },
+    { .name = "overwrite",
+      .help = "render frames that are there already, too",
+      .kind = ARGUMENT_FLAG,
+      .target = AT(overwrite) },
     { .name = "aov",
       .help = "add smooth.RGB, glints.N, glints.p, normal, albedo, depth (EXR)",
       .kind = ARGUMENT_FLAG,
@@ -176,7 +199,7 @@ static bool refuse_camera(const scene *s, const char *wanted, report *r)
 }
 
 /* A name first, a number only where no camera is called so. */
-static bool pick_camera(const scene *s, const char *wanted, const scene_camera **camera, report *r)
+bool render_pick_camera(const scene *s, const char *wanted, const scene_camera **camera, report *r)
 {
     *camera = NULL;
     if (!wanted)
@@ -197,19 +220,24 @@ static bool pick_camera(const scene *s, const char *wanted, const scene_camera *
 bool render_read_scene(const char *path, const render_values *v, scene *s, report *r)
 {
     const scene_file_options options = { .variant = v->variant };
-    if (!scene_file_read(path, &options, s, r))
-        return false;
+    return scene_file_read(path, &options, s, r) && render_dress_scene(v, s, r);
+}
+
+bool render_dress_scene(const render_values *v, scene *s, report *r)
+{
     for (size_t i = 0; i < v->materials.count; ++i)
         if (!preset_apply(s, v->materials.items[i].name, v->materials.items[i].value, r))
             return false;
     if (s->instance_count == 0)
-        report_warning(r, "%s: nothing to see: no triangles", path);
+        report_warning(r, "%s: nothing to see: no triangles", s->path);
     return true;
 }
 
 render_values render_defaults(void)
 {
     return (render_values){ .size = { 1280, 720 },
+                            .frames = { -1, -1 },
+                            .fps = (double)NAN,
                             .accuracy = (double)NAN,
                             .bounces = 1,
                             .exposure_ev = (double)NAN,
@@ -217,13 +245,18 @@ render_values render_defaults(void)
                             .environment_exposure_ev = (double)NAN };
 }
 
+double render_number_or(double given, double otherwise)
+{
+    return isnan(given) ? otherwise : given;
+}
+
 double render_accuracy(const render_values *v)
 {
-    return isnan(v->accuracy) ? ACCURACY_DEFAULT : v->accuracy;
+    return render_number_or(v->accuracy, ACCURACY_DEFAULT);
 }
 
 /* Who asks for an accuracy and for no number of samples wants as many as it takes: 0, the plan chooses. */
-static int samples_of(const render_values *v)
+int render_samples(const render_values *v)
 {
     if (v->spp > 0)
         return (int)v->spp;
@@ -239,7 +272,7 @@ bool render_options(const render_values *v, scene *s, render_light *light, previ
     options->tile_y = (int)v->tile[1];
     options->tile_width = (int)v->tile[2];
     options->tile_height = (int)v->tile[3];
-    options->spp = samples_of(v);
+    options->spp = render_samples(v);
     options->accuracy = render_accuracy(v);
     options->bounces = (int)v->bounces;
     options->threads = (int)v->threads;
@@ -248,5 +281,5 @@ bool render_options(const render_values *v, scene *s, render_light *light, previ
     options->facets = (preview_facets)v->facets;
     options->aov = v->aov;
     options->transparent = v->environment_background == 1;
-    return pick_camera(s, v->camera, &options->camera, r) && render_light_begin(v, s, light, options, r);
+    return render_pick_camera(s, v->camera, &options->camera, r) && render_light_begin(v, s, light, options, r);
 }

@@ -85,21 +85,30 @@ element_view elements_of(const gltf_file &file, int view_index, size_t offset, s
     return { bytes.data + offset, stride };
 }
 
-// The bytes of all elements, tightly packed, sparse ones substituted.
-std::vector<uint8_t> packed_elements(gltf_file &file, int index)
+size_t element_size_of(const tinygltf::Accessor &accessor)
+{
+    return component_size(accessor.componentType) * static_cast<size_t>(gltf_component_count(accessor));
+}
+
+// All elements where they lie in their buffer; without data, where they are zero.
+element_view viewed_elements(gltf_file &file, int index)
 {
     const tinygltf::Accessor &accessor = accessor_at(file, index);
     const std::string pointer = pointer_of(index);
-    const size_t size = component_size(accessor.componentType) * static_cast<size_t>(gltf_component_count(accessor));
     if (accessor.count > file.elements_left)
         throw file_error(pointer, "found " + std::to_string(accessor.count) +
                                       " elements, which makes the geometry too large for the bytes of the file");
     file.elements_left -= accessor.count;
-    element_view elements = { nullptr, 0 };
-    if (accessor.bufferView >= 0)
-        elements = elements_of(file, accessor.bufferView, accessor.byteOffset, size, accessor.count, true, pointer);
-    if (elements.data && elements.stride == size)
-        return std::vector<uint8_t>(elements.data, elements.data + accessor.count * size);
+    if (accessor.bufferView < 0)
+        return { nullptr, 0 };
+    return elements_of(file, accessor.bufferView, accessor.byteOffset, element_size_of(accessor), accessor.count, true,
+                       pointer);
+}
+
+// The bytes of all elements, tightly packed.
+std::vector<uint8_t> packed_elements(const tinygltf::Accessor &accessor, const element_view &elements)
+{
+    const size_t size = element_size_of(accessor);
     std::vector<uint8_t> packed(accessor.count * size, 0);
     for (size_t i = 0; i < accessor.count && elements.data; i++)
         std::memcpy(&packed[i * size], elements.data + i * elements.stride, size);
@@ -144,21 +153,67 @@ void substitute_sparse(const gltf_file &file, int index, std::vector<uint8_t> &p
     }
 }
 
-template <class T> void convert(const std::vector<uint8_t> &packed, float divisor, std::vector<float> &out)
+// The elements of an accessor with sparse ones in their places: a view into its buffer, or into packed where there is
+// none, or where something is substituted.
+element_view complete_elements(gltf_file &file, int index, std::vector<uint8_t> &packed)
 {
-    for (size_t i = 0; i < out.size(); i++) {
-        T value;
-        std::memcpy(&value, &packed[i * sizeof(T)], sizeof(T));
-        // -128 / 127 and -32768 / 32767 lie below -1.
-        out[i] = divisor > 1.0F ? std::max(static_cast<float>(value) / divisor, -1.0F) : static_cast<float>(value);
-    }
+    const tinygltf::Accessor &accessor = accessor_at(file, index);
+    const element_view elements = viewed_elements(file, index);
+    if (elements.data && !accessor.sparse.isSparse)
+        return elements;
+    packed = packed_elements(accessor, elements);
+    substitute_sparse(file, index, packed);
+    return { packed.data(), element_size_of(accessor) };
 }
 
-template <class T> void widen(const std::vector<uint8_t> &packed, std::vector<uint32_t> &out)
+template <class T> void convert(const element_view &elements, size_t components, float divisor, std::vector<float> &out)
+{
+    const uint8_t *element = elements.data;
+    for (size_t first = 0; first < out.size(); first += components, element += elements.stride)
+        for (size_t k = 0; k < components; k++) {
+            T value;
+            std::memcpy(&value, element + k * sizeof(T), sizeof(T));
+            // -128 / 127 and -32768 / 32767 lie below -1.
+            out[first + k] =
+                divisor > 1.0F ? std::max(static_cast<float>(value) / divisor, -1.0F) : static_cast<float>(value);
+        }
+}
+
+// Numbers of four bytes as they are. What lies side by side is copied as a whole, and a size that the compiler knows
+// takes no call.
+template <class T> void copy(const element_view &elements, size_t components, std::vector<T> &out)
+{
+    const uint8_t *element = elements.data;
+    if (elements.stride == components * sizeof(T))
+        std::memcpy(out.data(), element, out.size() * sizeof(T));
+    else if (components == 3)
+        for (size_t first = 0; first < out.size(); first += 3, element += elements.stride)
+            std::memcpy(&out[first], element, 3 * sizeof(T));
+    else
+        for (size_t first = 0; first < out.size(); first += components, element += elements.stride)
+            std::memcpy(&out[first], element, components * sizeof(T));
+}
+
+// A sum of all that is wrong first: it makes vectors, and looks for the place only where there is one.
+void check_finite(const std::vector<float> &numbers, size_t components, const std::string &pointer)
+{
+    uint32_t wrong = 0;
+    for (const float x : numbers)
+        wrong += std::isfinite(x) ? 0U : 1U;
+    for (size_t i = 0; wrong > 0 && i < numbers.size(); i++)
+        if (!std::isfinite(numbers[i]))
+            throw file_error(
+                pointer,
+                std::string("found ") + (std::isnan(numbers[i]) ? "NaN" : "infinity") +
+                    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): the schema leaves no type without components
+                    " in element " + std::to_string(i / components) + ", expected finite numbers");
+}
+
+template <class T> void widen(const element_view &elements, std::vector<uint32_t> &out)
 {
     for (size_t i = 0; i < out.size(); i++) {
         T value;
-        std::memcpy(&value, &packed[i * sizeof(T)], sizeof(T));
+        std::memcpy(&value, elements.data + i * elements.stride, sizeof(T));
         out[i] = value;
     }
 }
@@ -215,51 +270,46 @@ void gltf_check_accessor(const gltf_file &file, int index, int min_components, i
 
 std::vector<float> gltf_read_floats(gltf_file &file, int index)
 {
-    std::vector<uint8_t> packed = packed_elements(file, index);
-    substitute_sparse(file, index, packed);
+    std::vector<uint8_t> packed;
+    const element_view elements = complete_elements(file, index, packed);
     const tinygltf::Accessor &accessor = accessor_at(file, index);
-    std::vector<float> out(packed.size() / component_size(accessor.componentType));
+    const size_t components = static_cast<size_t>(gltf_component_count(accessor));
+    std::vector<float> out(accessor.count * components);
     const float divisor = accessor.normalized ? gltf_normalisation(accessor.componentType) : 1.0F;
     switch (accessor.componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-        convert<int8_t>(packed, divisor, out);
+        convert<int8_t>(elements, components, divisor, out);
         break;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        convert<uint8_t>(packed, divisor, out);
+        convert<uint8_t>(elements, components, divisor, out);
         break;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-        convert<int16_t>(packed, divisor, out);
+        convert<int16_t>(elements, components, divisor, out);
         break;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        convert<uint16_t>(packed, divisor, out);
+        convert<uint16_t>(elements, components, divisor, out);
         break;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        convert<uint32_t>(packed, divisor, out);
+        convert<uint32_t>(elements, components, divisor, out);
         break;
     default:
-        std::memcpy(out.data(), packed.data(), packed.size());
+        copy(elements, components, out);
     }
-    for (size_t i = 0; i < out.size(); i++)
-        if (!std::isfinite(out[i]))
-            throw file_error(pointer_of(index),
-                             std::string("found ") + (std::isnan(out[i]) ? "NaN" : "infinity") + " in element " +
-                                 // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): as above
-                                 std::to_string(i / static_cast<size_t>(gltf_component_count(accessor))) +
-                                 ", expected finite numbers");
+    check_finite(out, components, pointer_of(index));
     return out;
 }
 
 std::vector<uint32_t> gltf_read_integers(gltf_file &file, int index)
 {
-    std::vector<uint8_t> packed = packed_elements(file, index);
-    substitute_sparse(file, index, packed);
+    std::vector<uint8_t> packed;
+    const element_view elements = complete_elements(file, index, packed);
     const int type = accessor_at(file, index).componentType;
-    std::vector<uint32_t> out(packed.size() / component_size(type));
+    std::vector<uint32_t> out(accessor_at(file, index).count);
     if (component_size(type) == 1)
-        widen<uint8_t>(packed, out);
+        widen<uint8_t>(elements, out);
     else if (component_size(type) == 2)
-        widen<uint16_t>(packed, out);
+        widen<uint16_t>(elements, out);
     else
-        std::memcpy(out.data(), packed.data(), packed.size());
+        copy(elements, 1, out);
     return out;
 }

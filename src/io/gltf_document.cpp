@@ -11,7 +11,8 @@ namespace
 void warn_of_unknown_extensions(gltf_file &file)
 {
     for (const std::string &name : file.model.extensionsUsed)
-        if (!gltf_knows_extension(name))
+        if (!gltf_knows_extension(name) &&
+            !(file.moves && name == "KHR_animation_pointer")) // whose channels are counted
             file.warn("/extensionsUsed", "the extension " + name + " is not known here and has no effect");
 }
 
@@ -36,6 +37,10 @@ void gltf_read_document(gltf_file &file, json root, byte_view bin, bool has_bin,
     root.erase("buffers");
     const json images = root.value("images", json::array());
     root.erase("images");
+    if (file.moves) {
+        gltf::check_animations(root);
+        file.animations = root.value("animations", json::array());
+    }
     // Indices into both were checked above; tinygltf gets neither.
     file.model = gltf_tiny_model(std::move(root));
     warn_of_unknown_extensions(file);

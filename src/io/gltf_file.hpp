@@ -23,6 +23,8 @@ struct gltf_file {
     uint64_t elements_left = 0; // how many more accessor elements may be read; see gltf_load_buffers
     tinygltf::Model model;
     std::set<std::string> warned;
+    bool moves = false;              // whether animations are read
+    json animations = json::array(); // checked; empty where they are not read
 
     // Warns about a place of the file; the same warning comes once.
     void warn(const std::string &pointer, const std::string &text)

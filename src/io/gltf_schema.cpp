@@ -349,9 +349,25 @@ void check_schema(json &root, const finding_visitor &visit)
     checker(root, visit).check_object(root, root_schema(), "");
 }
 
+namespace
+{
+
+void refuse(const finding &f)
+{
+    throw file_error(f.pointer, finding_text(f));
+}
+
+} // namespace
+
 void check_schema(json &root)
 {
-    check_schema(root, [](const finding &f) { throw file_error(f.pointer, finding_text(f)); });
+    check_schema(root, refuse);
+}
+
+void check_animations(json &root)
+{
+    const finding_visitor visit = refuse;
+    checker(root, visit).check_object(root, animations_schema(), "");
 }
 
 } // namespace gltf

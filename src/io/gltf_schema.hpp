@@ -63,6 +63,7 @@ struct schema {
 
 // The tables: glTF 2.0 itself, then one function for the extensions of each kind of object.
 const schema &root_schema();
+const schema &animations_schema(); // the root again, but of its members animations alone
 const std::vector<extension> &root_extensions();
 const std::vector<extension> &scene_extensions();
 const std::vector<extension> &node_extensions();
@@ -107,6 +108,8 @@ void check_schema(json &root, const finding_visitor &visit);
 
 // The same, but throws a file_error for the first.
 void check_schema(json &root);
+// Likewise for the animations, which nothing but a motion needs. root has passed check_schema.
+void check_animations(json &root);
 
 } // namespace gltf
 

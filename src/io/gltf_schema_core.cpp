@@ -141,7 +141,29 @@ schema skin_schema()
              {} };
 }
 
+const schema &animation_schema()
+{
+    static const schema target = {
+        { index("node", "nodes"), choice("path", "translation|rotation|scale|weights|pointer").must() }, {}
+    };
+    // Of the samplers of its animation, which no table knows.
+    static const schema channel = { { integer("sampler", 0, max_int).must(), object("target", target).must() }, {} };
+    static const schema sampler = { { index("input", "accessors").must(), index("output", "accessors").must(),
+                                      choice("interpolation", "LINEAR|STEP|CUBICSPLINE") },
+                                    {} };
+    static const schema all = {
+        { objects("channels", channel, 1).must(), objects("samplers", sampler, 1).must(), text("name") }, {}
+    };
+    return all;
+}
+
 } // namespace
+
+const schema &animations_schema()
+{
+    static const schema root = { { objects("animations", animation_schema(), 0) }, {} };
+    return root;
+}
 
 const schema &texture_info_schema()
 {

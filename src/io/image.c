@@ -25,7 +25,9 @@ bool image_allocate(image *out, int width, int height, int channel_count, report
         return report_error(r, "a picture of %d x %d pixels with %d channels does not fit into memory: %.1f GiB", width,
                             height, channel_count, (double)byte_count / 0x1p30);
     }
-    *out = (image){ width, height, channel_count, names, pixels };
+    *out = (image){
+        .width = width, .height = height, .channel_count = channel_count, .channel_names = names, .pixels = pixels
+    };
     return true;
 }
 

@@ -17,7 +17,7 @@ set_target_properties(glint_image PROPERTIES LINK_DEPENDS ${CMAKE_CURRENT_SOURCE
 
 # image_png.c alone sees libpng, image_exr.cpp OpenEXR.
 glint_folder(io_image
-  SOURCES environment_map.c example_map.c image_engine.c image_exr.cpp image_png.c output_file.c
+  SOURCES environment_map.c example_map.c image_engine.c image_exr.cpp image_merge.c image_metadata.c image_png.c output_file.c
   SEES glint.h scene io)
 target_sources(io_image_objects INTERFACE $<TARGET_OBJECTS:io_pixels_objects>)
 # OpenEXR's list has libraries that nobody here calls.

@@ -22,6 +22,8 @@ typedef struct image {
     int width, height, channel_count;
     char (*channel_names)[32]; /* "R", "smooth.G", "glints.N" */
     float *pixels;
+    /* Where it lies in a larger picture, pixels from the upper left of that; full_width 0: it is all there is. */
+    int x, y, full_width, full_height;
 } image;
 
 /* Pixels of 0 and empty names. Sizes below 1, and those that memory cannot hold, are errors; *out is then zeroed. */
@@ -36,18 +38,25 @@ bool image_check_names(const image *i, const char *path, report *r);
 
 /* OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP; the first picture of a file. Float files come as they are; what
  * stores 8 or 16-bit integers is taken for sRGB with straight alpha and decoded. Channels may come in another order
- * than they were written in: look them up. */
+ * than they were written in: look them up. A part of a larger picture says where it lies. */
 bool image_read(const char *path, image *out, report *r);
 
 typedef struct image_text {
     const char *key, *value;
 } image_text; /* metadata */
 
-/* OpenEXR, float32, ZIP, every channel under its name. The file appears under its name only when it is whole. */
+/* OpenEXR, float32, ZIP, every channel under its name. A part of a larger picture is the data window in the display
+ * window of the whole. The file appears under its name only when it is whole. */
 bool image_write_exr(const char *path, const image *i, const image_text *metadata, size_t metadata_count, report *r);
 /* R, G, B (and A) as 8-bit sRGB after 2^exposure_ev, with straight alpha; values above 1 clip, NaN is black. Atomic,
  * too. */
 bool image_write_png(const char *path, const image *i, float exposure_ev, report *r);
+bool image_write_png_with_metadata(const char *path, const image *i, float exposure_ev, const image_text *metadata,
+                                   size_t metadata_count, report *r);
+
+/* Visits the texts in the metadata of an OpenEXR file or a PNG, in no order. Pixels are not read, but a file that ends
+ * too early is broken, which is an error, as a file of another kind is. */
+bool image_read_metadata(const char *path, void (*visit)(const image_text *text, void *user), void *user, report *r);
 
 /* Data, as a texture of normals is: RGB, row 0 on top, no colour space; the file has 8 or 16 bits. Atomic, too. */
 bool image_write_data_png(const char *path, int width, int height, int bits, const uint16_t *rgb, report *r);

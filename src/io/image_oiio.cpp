@@ -73,6 +73,13 @@ bool read_picture(const char *path, image *out, report *r)
             return false;
     if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out->pixels) || file->has_error())
         return report_error(r, "%s: is broken: %s", path, one_line(file->geterror()).c_str());
+    if (spec.width != spec.full_width || spec.height != spec.full_height || spec.x != spec.full_x ||
+        spec.y != spec.full_y) {
+        out->x = spec.x - spec.full_x;
+        out->y = spec.y - spec.full_y;
+        out->full_width = spec.full_width;
+        out->full_height = spec.full_height;
+    }
     if (spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16)
         image_from_srgb(out, spec.alpha_channel);
     return true;

@@ -7,11 +7,13 @@ glint_folder(io_scene
   SOURCES
     geometry.cpp
     gltf_accessor.cpp
+    gltf_animation.cpp
     gltf_container.cpp
     gltf_document.cpp
     gltf_draco.cpp
     gltf_glint.cpp
     gltf_graph.cpp
+    gltf_keyframes.cpp
     gltf_light.cpp
     gltf_material.cpp
     gltf_mesh.cpp
@@ -19,6 +21,7 @@ glint_folder(io_scene
     gltf_primitive.cpp
     gltf_resource.cpp
     gltf_rules.cpp
+    gltf_scene.cpp
     gltf_schema.cpp
     gltf_schema_core.cpp
     gltf_schema_extensions.cpp
@@ -34,6 +37,7 @@ glint_folder(io_scene
     scene_build.cpp
     scene_describe.cpp
     scene_file.cpp
+    scene_motion.cpp
     tangent_space.c
     validate.cpp
   SEES glint.h scene io)

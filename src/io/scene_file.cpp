@@ -1,67 +1,17 @@
-// Reads a .gltf or .glb file into a scene; the only place where a reader's exceptions become messages.
+// Reads a .gltf or .glb file into a scene that stands still.
 #include "io/scene_file.h"
 
-#include <new>
-
-#include "io/gltf_document.hpp"
-#include "io/gltf_light.hpp"
-#include "io/scene_bounds.h"
-#include "io/scene_memory.hpp"
-
-namespace
-{
-
-void read_variants(const gltf_file &file, scene *s)
-{
-    const tinygltf::Value *extension = gltf_extension(file.model.extensions, "KHR_materials_variants");
-    const tinygltf::Value *variants = extension ? gltf_member(*extension, "variants") : nullptr;
-    for (size_t i = 0; variants && i < variants->ArrayLen(); i++)
-        *scene_append(&s->variants, &s->variant_count) =
-            scene_string(gltf_text(variants->Get(static_cast<int>(i)), "name", ""));
-}
-
-// The index of the variant that the options ask for.
-int chosen_variant(const scene *s, const scene_file_options *options)
-{
-    if (!options || !options->variant)
-        return SCENE_NONE;
-    std::string names;
-    for (int i = 0; i < s->variant_count; i++) {
-        if (std::strcmp(s->variants[i], options->variant) == 0)
-            return i;
-        names += (i > 0 ? ", " : "") + std::string(s->variants[i]);
-    }
-    throw file_error("", std::string("found no variant called \"") + options->variant +
-                             "\", expected one of: " + (names.empty() ? "none, the file has no variants" : names));
-}
-
-void read_file(const char *path, const scene_file_options *options, scene *out, report *r)
-{
-    gltf_file file = { path, gltf_folder_of(path), r, file_bytes(path, gltf_max_file_bytes), {}, {}, 0, {}, {} };
-    const gltf_container parts = gltf_open(file.bytes);
-    out->path = scene_string(path);
-    gltf_read_document(file, json_parse(parts.text), parts.bin, parts.has_bin, out);
-    read_variants(file, out);
-    const std::vector<gltf_mesh_range> meshes = gltf_read_meshes(file, out, chosen_variant(out, options));
-    gltf_read_nodes(file, meshes, out);
-    gltf_read_environment(file, out);
-    scene_compute_bounds(out);
-}
-
-} // namespace
+#include "io/gltf_scene.hpp"
 
 bool scene_file_read(const char *path, const scene_file_options *options, scene *out, report *r)
 {
     *out = scene{};
     try {
-        read_file(path, options, out, r);
+        gltf_file file = {};
+        gltf_read_scene(path, options, file, out, r);
         return true;
-    } catch (const file_error &e) {
-        report_error(r, "%s", gltf_message(path, e).c_str());
-    } catch (const std::bad_alloc &) {
-        report_error(r, "%s: found a scene that needs more memory than there is", path);
-    } catch (const std::exception &e) {
-        report_error(r, "%s: cannot be read: %s", path, e.what());
+    } catch (...) {
+        gltf_report(path, r);
     }
     scene_free(out);
     return false;

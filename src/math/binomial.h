@@ -153,8 +153,9 @@ static inline __attribute__((always_inline)) vfloat binomial_walk(const binomial
     vfloat survival = s->survival, mass = s->mass, step = s->step;
     vint next = s->first;
     for (int k = 1; any(less_i(s->least, next)); k++) {
-#if GLINT_LANES > 1
-        /* Hides from GCC that these stay the same: it would copy all of them to the stack before the loop. */
+#if GLINT_LANES > 1 && GLINT_LANES < 16
+        /* Hides from GCC that these stay the same: it would copy all of them to the stack before the loop. Sixteen
+         * lanes come with 32 registers, and have room for them. */
         __asm__("" : "+r"(u), "+r"(weight));
 #endif
         binomial_count(draws, next, u, weight, sum, drawn);

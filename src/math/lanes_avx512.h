@@ -18,7 +18,7 @@ static inline vmask less_equal(vfloat a, vfloat b)
 
 static inline vmask less_i(vint a, vint b)
 {
-    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+    return _mm512_cmpgt_epi32_mask((__m512i)b, (__m512i)a); /* may read a from memory */
 }
 
 static inline vmask equal_i(vint a, vint b)

@@ -1,11 +1,32 @@
-/* Four lanes on SSE2, or SSE4.1 where the compiler may use it. */
+/* Four lanes on SSE2, or SSE4.1 and AVX2 where the compiler may use them. */
 #ifndef MATH_LANES_SSE_H
 #define MATH_LANES_SSE_H
 
 #include <immintrin.h>
 
-#include "math/lanes_gather.h"
 #include "math/lanes_mask.h"
+
+#if defined(__AVX2__)
+
+static inline vfloat lookup_f(const float *table, vint index)
+{
+    const __m256i eight = _mm256_castsi128_si256((__m128i)index);
+    return (vfloat)_mm256_castps256_ps128(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), eight));
+}
+
+static inline vuint pick_u(vuint from, vint lane)
+{
+    return (vuint)_mm_permutevar_ps((__m128)from, (__m128i)lane);
+}
+
+static inline vuint gather_u(const void *base, vint byte)
+{
+    return (vuint)_mm_i32gather_epi32(base, (__m128i)byte, 1);
+}
+
+#else
+#include "math/lanes_gather.h"
+#endif
 
 static inline int any(vmask m)
 {

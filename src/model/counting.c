@@ -56,10 +56,14 @@ counting_width counting_widest(size_t max_lanes)
     }
 }
 
-counting_width counting_narrowest(void)
+counting_width counting_narrowest(size_t max_lanes)
 {
+#if defined(__x86_64__)
+    if (machine_lanes(max_lanes) >= 8)
+        return (counting_width){ 1, counting_alone_avx2, counting_tinted_alone, counting_drawn_1 };
+#endif
 #if defined(__x86_64__) || defined(__aarch64__)
-    if (counting_widest(4).lanes == 4)
+    if (machine_lanes(max_lanes) >= 4)
         return (counting_width){ 1, counting_alone, counting_tinted_alone, counting_drawn_1 };
 #endif
     return counting_widest(1);
@@ -316,7 +320,7 @@ static glint_result counting_setup(struct glint_material *material)
         return GLINT_ERROR_MEMORY;
     const int leaves_out =
         (LIBRARY_FADING && o->smooth_deviation > 0.0F) || (LIBRARY_DRAWS && o->draw_deviation > 0.0F);
-    *baked = (counting_baked){ counting_widest(16), counting_narrowest(), leaves_out ? eval_what_shows : eval_all,
+    *baked = (counting_baked){ counting_widest(16), counting_narrowest(16), leaves_out ? eval_what_shows : eval_all,
                                tint_is_asked(o), tint_palette_of(o) };
     material->baked = baked;
     return GLINT_OK;

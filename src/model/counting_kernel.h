@@ -28,8 +28,8 @@ typedef struct counting_points {
 typedef void counting_kernel(const counting_points *points, size_t count, float *factor, float *facets);
 
 counting_kernel counting_kernel_1, counting_kernel_4, counting_kernel_8, counting_kernel_16;
-/* One point at a time, its four grids in four lanes: for machines that run counting_kernel_4. */
-counting_kernel counting_alone;
+/* One point at a time, its four grids in four lanes: for machines that run counting_kernel_4, or counting_kernel_8. */
+counting_kernel counting_alone, counting_alone_avx2;
 
 /* The same for facets of different colours, with a factor for each channel. A palette of one white colour gives the
  * bits of counting_kernel. */
@@ -55,7 +55,7 @@ typedef struct counting_width {
 
 /* The widest kernel that this machine runs, at most max_lanes wide. */
 counting_width counting_widest(size_t max_lanes);
-/* The fastest for one point. */
-counting_width counting_narrowest(void);
+/* The fastest for one point, on a machine that has no vectors wider than this. */
+counting_width counting_narrowest(size_t max_lanes);
 
 #endif

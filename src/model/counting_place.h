@@ -97,6 +97,13 @@ static inline size_t counting_place(const counting_points *points, size_t start,
     return entries / GLINT_LANES;
 }
 
+/* Where the spots of a vector of lights are: lane by lane at spot, or where lane says. */
+typedef struct counting_view {
+    const counting_spot *spot;
+    vint lane;
+    int picks; /* whether lane says anything */
+} counting_view;
+
 static inline vuint counting_vector_at(const counting_spot *spot, size_t byte)
 {
     vuint v;
@@ -104,32 +111,48 @@ static inline vuint counting_vector_at(const counting_spot *spot, size_t byte)
     return v;
 }
 
-/* The spots of the entries from i on, several of which may be at one point. They are in one vector of the block or in
- * two that follow each other. */
-static inline void counting_gather_spots(const counting_points *points, size_t i, const counting_block *b,
-                                         counting_spot *to)
+/* Lanes of two vectors of the block that follow each other, the first of which is from. */
+static inline void counting_gather_spots(const counting_spot *from, vint lane, vmask is_next, counting_spot *to)
 {
-    const size_t k = (points->place[i] - b->first) / GLINT_LANES;
-    const counting_spot *const from = &b->spot[k];
-    const vint lane = (vint)(load_u(points->place + i) - (uint32_t)(b->first + GLINT_LANES * k));
-    const vmask is_next = less_i(splat_i(GLINT_LANES - 1), lane);
-    const int has_next = any(is_next);
     for (size_t byte = 0; byte < sizeof(*to); byte += sizeof(vuint)) {
-        vuint picked = pick_u(counting_vector_at(from, byte), lane);
-        if (has_next)
-            picked = choose_u(is_next, pick_u(counting_vector_at(from + 1, byte), lane), picked);
+        const vuint here = pick_u(counting_vector_at(from, byte), lane);
+        const vuint picked = choose_u(is_next, pick_u(counting_vector_at(from + 1, byte), lane), here);
         memcpy((char *)to + byte, &picked, sizeof(picked));
     }
 }
 
-/* Those of vector k of the block, whose first entry is i; *room: where they may be gathered. */
-static inline const counting_spot *counting_spot_at(const counting_points *points, size_t i, size_t k,
-                                                    const counting_block *b, counting_spot *room)
+/* Of the entries from i on, which are vector k of the block. Several may be at one point; then they are in one vector
+ * of points, or in two that follow each other, and from two they are gathered in *room. */
+static inline counting_view counting_view_at(const counting_points *points, size_t i, size_t k, const counting_block *b,
+                                             counting_spot *room)
 {
     if (!points->place)
-        return &b->spot[k];
-    counting_gather_spots(points, i, b, room);
-    return room;
+        return (counting_view){ &b->spot[k], splat_i(0), 0 };
+    const size_t vector = (points->place[i] - b->first) / GLINT_LANES;
+    const vint lane = (vint)(load_u(points->place + i) - (uint32_t)(b->first + GLINT_LANES * vector));
+    const vmask is_next = less_i(splat_i(GLINT_LANES - 1), lane);
+    if (!any(is_next))
+        return (counting_view){ &b->spot[vector], lane, 1 };
+    counting_gather_spots(&b->spot[vector], lane, is_next, room);
+    return (counting_view){ room, splat_i(0), 0 };
+}
+
+/* What a light reads of its point. lane: NULL, or where it is. What is picked where it is used, by a function
+ * that is compiled for it, is neither stored nor loaded again. */
+static inline vuint counting_read_u(const vuint *from, const vint *lane)
+{
+    return lane ? pick_u(*from, *lane) : *from;
+}
+
+static inline vfloat counting_read_f(const vfloat *from, const vint *lane)
+{
+    return lane ? float_from_bits(pick_u(bits_of(*from), *lane)) : *from;
+}
+
+static inline counting_pixel counting_read_pixel(const counting_pixel *from, const vint *lane)
+{
+    return (counting_pixel){ counting_read_f(&from->facets, lane), counting_read_f(&from->counted, lane),
+                             counting_read_f(&from->area, lane) };
 }
 
 #define ANGULAR_CORNERS 3
@@ -220,19 +243,22 @@ typedef struct angular_draws {
     vfloat weight[GRID_DRAWS];
 } angular_draws;
 
-/* Those of so many grids, 1 or all, known to the compiler. hash: for each grid, as for the corners. */
+/* Those of so many grids, 1 or all, known to the compiler. lane: as counting_read_u takes it. hash: for each grid, as
+ * for the corners. */
 static inline __attribute__((always_inline)) void angular_draws_of(const angular_lattice *l, const int grids,
                                                                    const vuint *cell, const vfloat *cell_weight,
-                                                                   const vuint *hash, angular_draws *draws)
+                                                                   const vint *lane, const vuint *hash,
+                                                                   angular_draws *draws)
 {
 #pragma GCC unroll 4
     for (int g = 0; g < grids; g++) {
 #pragma GCC unroll 3
         for (int c = 0; c < GRID_CELLS; c++) {
             const int i = GRID_CELLS * g + c;
-            const angular_place place = angular_place_of(l, cell[i]);
-            angular_corners(&place, cell[i], cell_weight[i], hash[g], draws[g].uniform + ANGULAR_CORNERS * c,
-                            draws[g].weight + ANGULAR_CORNERS * c);
+            const vuint own = counting_read_u(cell + i, lane);
+            const angular_place place = angular_place_of(l, own);
+            angular_corners(&place, own, counting_read_f(cell_weight + i, lane), hash[g],
+                            draws[g].uniform + ANGULAR_CORNERS * c, draws[g].weight + ANGULAR_CORNERS * c);
         }
     }
 }

@@ -47,7 +47,7 @@ static vfloat count_grid(const angular_lattice *lattice, const vuint cell[GRID_C
     const vuint hash = (vuint)splat_i((int32_t)HASH_TOP);
     angular_draws d;
     vfloat count[GRID_DRAWS];
-    angular_draws_of(lattice, 1, cell, cell_weight, &hash, &d);
+    angular_draws_of(lattice, 1, cell, cell_weight, NULL, &hash, &d);
     const vfloat sum = binomial_weighted_sum(trials, chance, d.uniform, d.weight, dither, count,
                                              (binomial_many){ GRID_DRAWS, CORNER_SCALE });
     const vmask sure = less_equal(splat(1.0F), chance->given);
@@ -68,18 +68,31 @@ static vfloat tinted_factor(vfloat sum, vfloat tints, vfloat drawn, vfloat p)
     return choose(rare, splat(1.0F), max_f(choose(sure, splat(1.0F), sum) + tints, splat(0.0F)));
 }
 
-/* The factors of the three channels for one light. */
-static void lit_factors(const grid_point *grid, vfloat facets, vfloat hx, vfloat hy, vfloat cap, vfloat p,
-                        const tint_palette *palette, vfloat factor[3])
+/* The factors of the three channels for light i. */
+static void lit_factors(const grid_point *grid, const vint *lane, vfloat facets, const counting_points *points,
+                        size_t i, const tint_palette *palette, vfloat factor[3])
 {
-    const angular_lattice lattice = angular_locate(hx, hy, cap);
+    const angular_lattice lattice =
+        angular_locate(load_f(points->hx + i), load_f(points->hy + i), load_f(points->cap + i));
+    const vfloat p = load_f(points->p + i), drawn = counting_drawn_from(facets);
     const binomial_chance chance = binomial_chance_of(p);
-    const vfloat drawn = counting_drawn_from(facets);
+    const vfloat dither = angular_dither(counting_read_u(grid->cell, lane));
     vfloat sum = splat(0.0F), tints[3] = { splat(0.0F), splat(0.0F), splat(0.0F) };
     for (int g = 0; g < GRID_COUNT; g++) {
-        vfloat of_grid[3];
-        sum = sum + count_grid(&lattice, grid->cell + GRID_CELLS * g, grid->weight + GRID_CELLS * g,
-                               angular_dither(grid->cell[0]), &chance, drawn * grid->share[g], palette, of_grid);
+        const vuint *cell = grid->cell + GRID_CELLS * g;
+        const vfloat *weight = grid->weight + GRID_CELLS * g;
+        vuint picked[GRID_CELLS];
+        vfloat picked_weight[GRID_CELLS], of_grid[3];
+        for (int c = 0; lane && c < GRID_CELLS; c++) {
+            picked[c] = counting_read_u(cell + c, lane);
+            picked_weight[c] = counting_read_f(weight + c, lane);
+        }
+        if (lane) {
+            cell = picked;
+            weight = picked_weight;
+        }
+        sum = sum + count_grid(&lattice, cell, weight, dither, &chance, drawn * counting_read_f(grid->share + g, lane),
+                               palette, of_grid);
         for (int c = 0; c < 3; c++)
             tints[c] = tints[c] + of_grid[c];
     }
@@ -98,13 +111,14 @@ void JOIN(counting_tinted_, GLINT_LANES)(const counting_points *points, size_t c
         const size_t vectors = counting_place(points, start, count, &block);
         for (size_t k = 0, i = start; k < vectors; k++, i += GLINT_LANES) {
             counting_spot room;
-            const counting_spot *const spot = counting_spot_at(points, i, k, &block, &room);
+            const counting_view view = counting_view_at(points, i, k, &block, &room);
+            const vint *const lane = view.picks ? &view.lane : NULL;
+            const counting_pixel pixel = counting_read_pixel(&view.spot->pixel, lane);
             vfloat f[3];
-            lit_factors(&spot->grid, spot->pixel.counted, load_f(points->hx + i), load_f(points->hy + i),
-                        load_f(points->cap + i), load_f(points->p + i), palette, f);
+            lit_factors(&view.spot->grid, lane, pixel.counted, points, i, palette, f);
             for (int c = 0; c < 3; c++)
-                store_f(factor[c] + i, choose(counting_is_flat(&spot->pixel), splat(1.0F), f[c]));
-            store_f(facets + i, spot->pixel.facets);
+                store_f(factor[c] + i, choose(counting_is_flat(&pixel), splat(1.0F), f[c]));
+            store_f(facets + i, pixel.facets);
         }
     }
 }

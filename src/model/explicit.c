@@ -114,6 +114,17 @@ static float shown_share(const model_query *q, const glint_value *value)
                       q->material->options.smooth_deviation);
 }
 
+/* White Noise takes the seed as a float, which has room for 24 bits. An object whose number needs more has its own
+ * mixed with the material's: added up and rounded, materials with seeds next to each other would have the same facets.
+ */
+static uint32_t seed_of_facets(const model_query *q)
+{
+    const glint_material_options *o = &q->material->options;
+    if (o->facet_hash != GLINT_FACET_HASH_CYCLES || q->footprint->seed < 1U << 24)
+        return o->seed + q->footprint->seed;
+    return hash_full(o->seed * HASH_X + q->footprint->seed * HASH_Y) >> 8;
+}
+
 /* The smooth value where there is nothing discrete to see, or too much. */
 static void explicit_eval_area(const model_query *q, glint_value *value)
 {
@@ -139,7 +150,7 @@ static void explicit_eval_area(const model_query *q, glint_value *value)
     facet_sum s = { .q = q,
                     .palette = is_tinted ? &palette : NULL,
                     .distribution = lobe_ndf(q),
-                    .seed = q->material->options.seed + q->footprint->seed,
+                    .seed = seed_of_facets(q),
                     .area = &light };
     s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
     coverage_each(&pixel, add_facet, &s);
@@ -178,7 +189,7 @@ static void explicit_eval(const model_query *q, glint_value *value)
                             .distribution = lobe_ndf(q),
                             .h = lobe.h,
                             .chord2 = q->solid_angle_sr / MATH_PI,
-                            .seed = q->material->options.seed + q->footprint->seed };
+                            .seed = seed_of_facets(q) };
             s.total_area = q->total_area > 0.0F ? q->total_area : ndf_total_area(&s.distribution);
             coverage_each(&pixel, add_facet, &s);
             const float g = shown * q->surface->discreteness;

@@ -88,14 +88,19 @@ float lobe_specular_chance(const model_query *q)
     return chance < 0.1F ? 0.1F : chance > 0.9F ? 0.9F : chance;
 }
 
+/* chance: lobe_specular_chance */
+static float pdf_of(const model_query *q, const ndf *n, float chance)
+{
+    const vec3 h = vec3_normalize(vec3_add(q->wo, q->wi));
+    /* Visible normals over the reflection's Jacobian: G1 D / (4 cos_o), G1 / cos_o = 1 / (cos_o + masked). */
+    const float specular = ndf_density(n, h) / (4.0F * (q->wo.z + ndf_masked(n, q->wo)));
+    return chance * specular + (1.0F - chance) * (q->wi.z / MATH_PI);
+}
+
 float lobe_pdf(const model_query *q)
 {
     const ndf n = lobe_ndf(q);
-    const float chance = lobe_specular_chance(q);
-    const vec3 h = vec3_normalize(vec3_add(q->wo, q->wi));
-    /* Visible normals over the reflection's Jacobian: G1 D / (4 cos_o), G1 / cos_o = 1 / (cos_o + masked). */
-    const float specular = ndf_density(&n, h) / (4.0F * (q->wo.z + ndf_masked(&n, q->wo)));
-    return chance * specular + (1.0F - chance) * (q->wi.z / MATH_PI);
+    return pdf_of(q, &n, lobe_specular_chance(q));
 }
 
 /* A uniform point of the disk, lifted. */
@@ -112,7 +117,8 @@ int lobe_sample(const model_query *q, const float random[3], glint_sample *sampl
 {
     const ndf n = lobe_ndf(q);
     model_query lit = *q;
-    if (random[0] < lobe_specular_chance(q)) {
+    const float chance = lobe_specular_chance(q);
+    if (random[0] < chance) {
         const vec3 h = ndf_sample_visible(&n, q->wo, random[1], random[2]);
         lit.wi = vec3_normalize(vec3_add(vec3_scale(h, 2.0F * vec3_dot(q->wo, h)), vec3_scale(q->wo, -1.0F)));
     } else {
@@ -122,7 +128,7 @@ int lobe_sample(const model_query *q, const float random[3], glint_sample *sampl
         return 0;
     lobe_value value;
     lobe_eval(&lit, &value);
-    const float pdf = lobe_pdf(&lit);
+    const float pdf = pdf_of(&lit, &n, chance);
     if (!(pdf > 0.0F))
         return 0;
     *sample = (glint_sample){ { lit.wi.x, lit.wi.y, lit.wi.z }, pdf, { 0.0F, 0.0F, 0.0F } };

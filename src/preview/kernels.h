@@ -11,7 +11,9 @@ struct light;
 struct light_batch;
 
 typedef struct kernels {
-    int lanes;                                                      /* doubles */
+    int lanes; /* doubles */
+    /* sampler_draw.h */
+    void (*draw)(const uint32_t *pixel, const uint32_t *reversed, uint32_t dimension, int count, double *u, double *v);
     void (*camera)(const struct camera *c, struct camera_batch *b); /* camera_kernel.h */
     void (*hit)(struct hit_batch *b, int count);                    /* hit_kernel.h */
     /* light_kernel.h */

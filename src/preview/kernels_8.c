@@ -4,4 +4,6 @@
 #include "preview/hit_kernel.h"
 #include "preview/light_kernel.h"
 
-const kernels kernels_8 = { .lanes = WIDE_LANES, .camera = leave_camera, .hit = resolve_hits, .light = look_at_light };
+const kernels kernels_8 = {
+    .lanes = WIDE_LANES, .draw = draw_pairs, .camera = leave_camera, .hit = resolve_hits, .light = look_at_light
+};

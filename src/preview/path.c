@@ -40,15 +40,18 @@ static void add_light(radiance *sum, const float throughput[3], const float adde
     }
 }
 
+/* The uniforms that a ray is drawn by. */
+typedef struct ray_draw {
+    double lobe[2], direction[2];
+} ray_draw;
+
 /* Draws the next ray of a path, with the differential of a reflection about the half vector: the facet that sends the
  * ray there turns with the surface. False: the path ends. */
-static bool draw_ray(const world *w, vertex *v, const sampler *random, int depth, shade_direction *next)
+static bool draw_ray(const world *w, vertex *v, const sampler *random, int depth, const ray_draw *u,
+                     shade_direction *next)
 {
-    double lobe[2], u[2];
-    sampler_pair(random, path_dimension(depth, DIM_LOBE), lobe);
-    sampler_pair(random, path_dimension(depth, DIM_DIRECTION), u);
-    const float three[3] = { to_uniform(lobe[0]), to_uniform(u[0]), to_uniform(u[1]) };
-    if (!shade_sample(&v->point, to_uniform(lobe[1]), three, next) || !(next->pdf > 0.0F))
+    const float three[3] = { to_uniform(u->lobe[0]), to_uniform(u->direction[0]), to_uniform(u->direction[1]) };
+    if (!shade_sample(&v->point, to_uniform(u->lobe[1]), three, next) || !(next->pdf > 0.0F))
         return false;
     if (v3_dot(next->wi, v->hit.geometric_normal) <= 0.0) /* into the surface, through a bent normal */
         return false;
@@ -78,11 +81,11 @@ static void begin(const vertex *from, const sampler *random, radiance *sum, path
 }
 
 /* False: the path ends. */
-static bool leave(const world *w, path *p, int depth, ray_counts *counts)
+static bool leave(const world *w, path *p, int depth, const ray_draw *u, ray_counts *counts)
 {
     if (w->emitters != NULL)
         p->left = p->v.point;
-    if (!draw_ray(w, &p->v, p->random, depth - 1, &p->next))
+    if (!draw_ray(w, &p->v, p->random, depth - 1, u, &p->next))
         return false;
     ++counts->bounce_rays;
     return true;
@@ -124,7 +127,12 @@ void add_indirect_light(const world *w, const vertex *from, const sampler *rando
     if (!has_indirect_light(w))
         return;
     begin(from, random, sum, &p);
-    for (int depth = 1; (depth <= w->bounces || w->has_sky) && leave(w, &p, depth, counts); ++depth) {
+    for (int depth = 1; depth <= w->bounces || w->has_sky; ++depth) {
+        ray_draw u;
+        sampler_pair(random, path_dimension(depth - 1, DIM_LOBE), u.lobe);
+        sampler_pair(random, path_dimension(depth - 1, DIM_DIRECTION), u.direction);
+        if (!leave(w, &p, depth, &u, counts))
+            return;
         const bool met = trace_closest(w->trace, &p.v.ray, TRACE_BLEND_RANDOM, &p.v.found);
         if (!has_met(w, &p, met, depth, counts))
             return;
@@ -142,17 +150,32 @@ void add_indirect_light(const world *w, const vertex *from, const sampler *rando
 
 /* ---- many ---- */
 
-/* Returns how many paths are left, the first of active and of points. */
-static int go_on(const world *w, int active, int depth, path_scratch *s, ray_counts *counts)
+/* Returns how many paths are left, the first of active and of rays. */
+static int leave_all(const world *w, int active, int depth, path_scratch *s, ray_counts *counts)
 {
-    int left = 0, arrived = 0;
+    int left = 0;
+    for (int i = 0; i < active; ++i) {
+        pair_batch_set(&s->lobes, i, s->active[i]->random);
+        pair_batch_set(&s->directions, i, s->active[i]->random);
+    }
+    pair_batch_draw(w->kernels, path_dimension(depth - 1, DIM_LOBE), active, &s->lobes);
+    pair_batch_draw(w->kernels, path_dimension(depth - 1, DIM_DIRECTION), active, &s->directions);
     for (int i = 0; i < active; ++i) {
         path *const p = s->active[i];
-        if (!leave(w, p, depth, counts))
+        const ray_draw u = { { s->lobes.u[0][i], s->lobes.u[1][i] }, { s->directions.u[0][i], s->directions.u[1][i] } };
+        if (!leave(w, p, depth, &u, counts))
             continue;
         s->rays[left] = &p->v.ray;
         s->active[left++] = p;
     }
+    return left;
+}
+
+/* Returns how many paths are left, the first of active and of points. */
+static int go_on(const world *w, int active, int depth, path_scratch *s, ray_counts *counts)
+{
+    const int left = leave_all(w, active, depth, s, counts);
+    int arrived = 0;
     trace_closest_many(w->trace, s->rays, left, TRACE_BLEND_RANDOM, s->hits, s->met);
     for (int i = 0; i < left; ++i) {
         path *const p = s->active[i];

@@ -48,6 +48,7 @@ enum { PATH_MOST = SURROUNDINGS_MOST };
 /* What the work on many paths needs, made before the first of them. */
 typedef struct path_scratch {
     path paths[PATH_MOST], *active[PATH_MOST];
+    pair_batch lobes, directions; /* uniforms that draw their next rays */
     const trace_ray *rays[PATH_MOST];
     trace_hit hits[PATH_MOST];
     hit_task tasks[PATH_MOST];

@@ -1,4 +1,5 @@
 /* A picture that grows: the sums of its pixels stay between passes, so that a pass goes on where the last one ended. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "preview/stage.h"
@@ -26,7 +27,7 @@ bool preview_stage_open(const scene *s, const preview_options *options, preview_
     preview_stage *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return report_error(r, "no memory for the scene");
-    if (!stage_set_up(&made->stage, s, options, &unused, r)) {
+    if (!stage_set_up(&made->stage, s, options, (double)INFINITY, &unused, r)) {
         preview_stage_close(made);
         return false;
     }

@@ -1,6 +1,7 @@
 /* Sets a render up, runs it and takes it down again. */
 #include "preview/preview.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -131,7 +132,8 @@ static void set_sky(world *w, const stage *st, const preview_options *o)
         w->sky = o->sky != NULL ? *o->sky : rig_sky();
 }
 
-bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r)
+bool stage_set_up(stage *st, const scene *s, const preview_options *o, double samples, preview_statistics *statistics,
+                  report *r)
 {
     *st = (stage){ .scene = s };
     const double start = now_s();
@@ -141,7 +143,8 @@ bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_s
     st->shader = (shader){ s, &st->materials, st->textures, NULL };
     if (!shader_open(&st->shader, r) || !stage_set_environment(st, o, r) ||
         !materials_make(s, o, NULL, &st->materials, r) || !geometry_make(s, &st->geometry, r) ||
-        !trace_build(&st->geometry, opacity_at, st, &st->trace, r) || !emitters_make(&st->geometry, &st->emitters, r))
+        !trace_build(&st->geometry, trace_trees_for(&st->geometry, samples), opacity_at, st, &st->trace, r) ||
+        !emitters_make(&st->geometry, &st->emitters, r))
         return false;
     statistics->load_s = loaded - start;
     statistics->build_s = now_s() - loaded;
@@ -257,6 +260,13 @@ static bool render(const stage *st, const world *w, const preview_options *o, im
     return false;
 }
 
+/* Of the whole picture, whichever tile of it is wanted: tiles shall fit together. Where the plan is to choose their
+ * number, it may choose any. */
+static double samples_of_picture(const preview_options *o)
+{
+    return o->spp > 0 ? (double)o->width * (double)o->height * (double)o->spp : (double)INFINITY;
+}
+
 bool preview_render(const scene *s, const preview_options *options, image *out, preview_statistics *statistics,
                     report *r)
 {
@@ -265,7 +275,7 @@ bool preview_render(const scene *s, const preview_options *options, image *out, 
     view v = { 0 };
     *out = (image){ 0 };
     bool ok = stage_check_options(options, r);
-    ok = ok && stage_set_up(&st, s, options, &own, r) && view_set_up(&v, &st, options, r);
+    ok = ok && stage_set_up(&st, s, options, samples_of_picture(options), &own, r) && view_set_up(&v, &st, options, r);
     if (ok && options->planned != NULL)
         options->planned(v.planned.plan, options->user);
     ok = ok && render(&st, &v.world, options, out, &own, r);
@@ -281,7 +291,8 @@ bool preview_plan(const scene *s, const preview_options *options, glint_plan **p
     preview_statistics unused = { 0 };
     stage st = { 0 };
     *plan = NULL;
-    const bool ok = stage_check_options(options, r) && stage_set_up(&st, s, options, &unused, r) &&
+    const bool ok = stage_check_options(options, r) &&
+                    stage_set_up(&st, s, options, samples_of_picture(options), &unused, r) &&
                     view_plan(&st, options, plan, r);
     stage_take_down(&st);
     return ok;

@@ -126,7 +126,8 @@ bool preview_picture_open(const preview_stage *stage, const preview_options *opt
 /* Of a pixel in the end: spp, or what the plan has chosen. */
 int preview_picture_samples(const preview_picture *p);
 /* Adds samples to every pixel until it has as many as are asked for, [1, preview_picture_samples]. The picture then is,
- * bit for bit, that of any other way to the same number; with all of them it is that of preview_render.
+ * bit for bit, that of any other way to the same number; with all of them it is that of preview_render, but where
+ * surfaces coincide: see trace_trees_for.
  *
  * False without an error: cancelled. Pixels then have different numbers of samples, each is the mean of its own, and a
  * further call goes on. False with an error: what preview_render says of too many facets; the pixels are good. */

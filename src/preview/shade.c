@@ -254,13 +254,16 @@ float shade_opacity(const shader *s, const geometry *g, const trace_hit *at)
 
 void shade_emission(const shader *s, const geometry *g, const trace_hit *at, float rgb[3])
 {
-    const hit_step still = { 0 };
-    hit h;
-    hit_locate(g, at, &h);
-    const lookup l = make_lookup(s, &h, &still);
-    const scene_material *const m = &s->scene->materials[h.mesh->material];
-    float rgba[4];
-    look_up(&l, &m->emissive_texture, rgba);
+    const scene_mesh *const mesh = &s->scene->meshes[s->scene->instances[at->instance].mesh];
+    const scene_material *const m = &s->scene->materials[mesh->material];
+    float rgba[4] = { 1.0F, 1.0F, 1.0F, 1.0F };
+    if (EFFECT_TEXTURES && m->emissive_texture.image != SCENE_NONE) {
+        const hit_step still = { 0 };
+        hit h;
+        hit_locate(g, at, &h);
+        const lookup l = make_lookup(s, &h, &still);
+        look_up(&l, &m->emissive_texture, rgba);
+    }
     for (int c = 0; c < 3; ++c)
         rgb[c] = m->emissive[c] * rgba[c];
 }

@@ -18,8 +18,10 @@ typedef struct stage {
 } stage;
 
 /* Of the options counts what preview_stage_open says. The stage may not move afterwards: the tracer points into it.
- * Whether it succeeds or not, stage_take_down frees what there is. */
-bool stage_set_up(stage *st, const scene *s, const preview_options *o, preview_statistics *statistics, report *r);
+ * samples: about how many its pictures will take in all; infinite where that is not known. Whether it succeeds or not,
+ * stage_take_down frees what there is. */
+bool stage_set_up(stage *st, const scene *s, const preview_options *o, double samples, preview_statistics *statistics,
+                  report *r);
 void stage_take_down(stage *st);
 
 /* See preview_stage_change. */

@@ -44,16 +44,14 @@ static void answer(const float rgb[3], const glint_value *value, const shade_poi
     note_facets(facets, value);
 }
 
-/* False: it brings nothing. */
+/* u: the sampler's pair of that dimension. False: it brings nothing. */
 typedef bool asks(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                  surroundings_query *q, trace_ray *ray);
+                  const double u[2], surroundings_query *q, trace_ray *ray);
 
 static bool ask_environment(const world *w, const hit *h, const shade_point *p, const sampler *random,
-                            uint32_t dimension, surroundings_query *q, trace_ray *ray)
+                            uint32_t dimension, const double u[2], surroundings_query *q, trace_ray *ray)
 {
-    double u[2];
     environment_light from;
-    sampler_pair(random, dimension, u);
     if (!environment_sample(w->environment, u, &from) || !shade_faces(p, from.wi))
         return false;
     *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin),
@@ -72,7 +70,9 @@ static void add_one(const world *w, asks *ask, const hit *h, const shade_point *
 {
     surroundings_query q;
     trace_ray ray;
-    if (!ask(w, h, p, random, dimension, &q, &ray))
+    double u[2];
+    sampler_pair(random, dimension, u);
+    if (!ask(w, h, p, random, dimension, u, &q, &ray))
         return;
     ++counts->shadow_rays;
     if (trace_occluded(w->trace, &ray))
@@ -99,10 +99,15 @@ static int list_lit(surroundings_scratch *s, int asked)
 static void add_many(const world *w, asks *ask, const direct_point *points, int count, uint32_t dimension,
                      surroundings_scratch *s, ray_counts *counts)
 {
+    pair_batch *const pairs = &s->pairs;
     int asked = 0;
+    for (int i = 0; i < count; ++i)
+        pair_batch_set(pairs, i, points[i].random);
+    pair_batch_draw(w->kernels, dimension, count, pairs);
     for (int i = 0; i < count; ++i) {
         const direct_point *const p = &points[i];
-        if (ask(w, &p->vertex->hit, &p->vertex->point, p->random, dimension, &s->queries[asked], &s->rays[asked]))
+        const double u[2] = { pairs->u[0][i], pairs->u[1][i] };
+        if (ask(w, &p->vertex->hit, &p->vertex->point, p->random, dimension, u, &s->queries[asked], &s->rays[asked]))
             s->queries[asked++].to = p;
     }
     counts->shadow_rays += (uint64_t)asked;
@@ -162,11 +167,9 @@ static shade_surroundings glow_of(const world *w, const emitter_point *from, vec
 }
 
 static bool ask_glow(const world *w, const hit *h, const shade_point *p, const sampler *random, uint32_t dimension,
-                     surroundings_query *q, trace_ray *ray)
+                     const double u[2], surroundings_query *q, trace_ray *ray)
 {
-    double u[2];
     emitter_point from;
-    sampler_pair(random, dimension, u);
     emitters_sample(w->emitters, u, &from);
     *ray = (trace_ray){ .origin = hit_leave(h, h->shadow_origin), .random = sampler_bits(random, dimension) };
     const vec3 towards = v3_sub(from.position, ray->origin);

@@ -4,6 +4,7 @@
 #define PREVIEW_SURROUNDINGS_H
 
 #include "preview/direct.h"
+#include "preview/pair_batch.h"
 
 /* Adds throughput * (what one direction from the environment's own distribution brings) to *sum; nothing without an
  * environment. facets as in add_direct_light. */
@@ -27,7 +28,7 @@ bool add_found_glow(const world *w, const shade_point *p, const shade_direction 
 
 /* ---- the first and the third for many points, bit for bit ---- */
 
-enum { SURROUNDINGS_MOST = 64 };
+enum { SURROUNDINGS_MOST = PAIR_BATCH };
 
 /* Light from one direction, which waits for its shadow ray. */
 typedef struct surroundings_query {
@@ -38,6 +39,7 @@ typedef struct surroundings_query {
 
 /* What the work on many points needs, made before the first of them. */
 typedef struct surroundings_scratch {
+    pair_batch pairs;
     surroundings_query queries[SURROUNDINGS_MOST];
     trace_ray rays[SURROUNDINGS_MOST];
     bool dark[SURROUNDINGS_MOST];

@@ -42,7 +42,8 @@ double area_truth_masking(const area_truth_lobe *l, const double wo[3], const do
     return 1.0 / (1.0 + lambda(l, wo) + lambda(l, wi));
 }
 
-static void add(area_truth *sum, const area_truth_lobe *l, const double wo[3], const double p[3], double solid_angle)
+void area_truth_add(area_truth *sum, const area_truth_lobe *l, const double wo[3], const double p[3],
+                    double solid_angle)
 {
     const double length = sqrt(dot(p, p));
     const double wi[3] = { p[0] / length, p[1] / length, p[2] / length };
@@ -82,7 +83,7 @@ static void add_flat(area_truth *sum, const area_truth_lobe *l, const double wo[
             for (int k = 0; k < 3; k++)
                 p[k] = c[k] + s * x[k] + t * y[k];
             const double d2 = dot(p, p);
-            add(sum, l, wo, p, area * facing / (d2 * sqrt(d2)));
+            area_truth_add(sum, l, wo, p, area * facing / (d2 * sqrt(d2)));
         }
 }
 
@@ -110,7 +111,7 @@ static void add_round(area_truth *sum, const area_truth_lobe *l, const double wo
             double p[3];
             for (int k = 0; k < 3; k++)
                 p[k] = (1.0 - v) * a[k] + s * (cos(phi) * x[k] + sin(phi) * y[k]);
-            add(sum, l, wo, p, 2.0 * PI * versine / ((double)side * side));
+            area_truth_add(sum, l, wo, p, 2.0 * PI * versine / ((double)side * side));
         }
 }
 
@@ -140,7 +141,7 @@ static void add_polygon(area_truth *sum, const area_truth_lobe *l, const double 
                 for (int k = 0; k < 3; k++)
                     p[k] = first[k] + s * b[k] + t * c[k];
                 const double d2 = dot(p, p);
-                add(sum, l, wo, p, 0.5 * fabs(dot(normal, p)) / (d2 * sqrt(d2)) / ((double)side * side));
+                area_truth_add(sum, l, wo, p, 0.5 * fabs(dot(normal, p)) / (d2 * sqrt(d2)) / ((double)side * side));
             }
     }
 }

@@ -15,13 +15,15 @@ static void measure(study_run *run)
 }
 
 static const study_figure figures[] = {
-    { "lights_error", "Error of the fast integral over its exact value, one point a random light",
+    { "lights_error",
+      "Error of the fast integral, one point a random light; and the share of lights that each integral is further off "
+      "for",
       lights_error_gnuplot },
-    { "lights_parts", "The parts of a rectangle add up to the whole, exactly but for the error of the integrals",
+    { "lights_parts",
+      "The parts of a rectangle against the true whole: what the integrals are off by, and no more for being cut",
       lights_parts_gnuplot },
     { "lights_replaced",
-      "Along the floor in front of a panel: the radiance, and what a single glint sends, over what exact integrals "
-      "give",
+      "Along the floor in front of a panel: the radiance, and what a single glint sends, over what they are in truth",
       lights_replaced_gnuplot },
     { "lights_convergence",
       "The deviation of a pixel falls with the root of the number of facets: points are measured, lines the binomial "
@@ -35,7 +37,9 @@ extern const study lights_study;
 const study lights_study = {
     .name = "lights",
     .title = "Lights of real size: where the fast integral is off",
-    .truth = "the boundary integral, which is held against brute force, and the binomial law",
+    .truth =
+        "adaptive quadrature over directions, in double, written without the library, with an error of its own; for "
+        "counts the binomial law",
     .choose = "the fast integral for pictures; the exact one where all of a light must add up to a few thousandths.",
     .share = 0.01,
     .run = measure,

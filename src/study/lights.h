@@ -4,6 +4,9 @@
 
 #include "study/study.h"
 
+/* What the truth about a light is known to, relative: below anything that is shown. */
+#define LIGHTS_TOLERANCE 1e-9
+
 /* Each goes on from `from` to `to`, shares of the whole study. */
 void lights_measure_errors(study_run *run, double from, double to);
 void lights_measure_parts(study_run *run, double from, double to);

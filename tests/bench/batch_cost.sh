@@ -1,6 +1,6 @@
 #!/bin/bash
 # batch_cost.sh KERNEL EVAL [WHAT=MOST]...: instructions a point of the counting kernel ("kernel 8": at eight lanes, "kernel alone":
-# one point at a time) and of whole batches ("counting", or another case of bench/eval). Fails where there are more than MOST.
+# one point at a time, "kernel lit": a light, of four at each point, at eight lanes) and of whole batches ("counting", or another case of bench/eval). Fails where there are more than MOST.
 # valgrind runs no AVX-512: batches take eight lanes.
 set -euo pipefail
 kernel=$1

@@ -43,8 +43,8 @@ static void open_frame(frame *f, const scene *s, int model, size_t lanes)
     f->options.threads = 1;
     f->options.model = model;
     f->options.area_lights = GLINT_AREA_LIGHT_FAST;
-    if (!stage_set_up(&f->stage, s, &f->options, &unused, &r) || !view_set_up(&f->view, &f->stage, &f->options, &r) ||
-        !film_of_options(&f->options, &f->film, &r))
+    if (!stage_set_up(&f->stage, s, &f->options, (double)INFINITY, &unused, &r) ||
+        !view_set_up(&f->view, &f->stage, &f->options, &r) || !film_of_options(&f->options, &f->film, &r))
         stop(r.error);
     for (int i = 0; i < s->material_count; i++) {
         lanes_hold(f->stage.materials.layers[i].base, lanes);

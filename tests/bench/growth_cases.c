@@ -245,7 +245,7 @@ static void load(void)
     if (!geometry_make(&stage, &g, &r))
         stop(r.error);
     const double made = race_now_all();
-    if (!trace_build(&g, opaque, NULL, &traced, &r))
+    if (!trace_build(&g, TRACE_TREES_FINE, opaque, NULL, &traced, &r))
         stop(r.error);
     growth_loaded = (growth_load){ read - start, race_now_all() - made, race_now_all() - start };
 }

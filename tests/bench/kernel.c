@@ -2,7 +2,7 @@
  *
  * bench/kernel FILE.json [rounds]. Every contestant's mean is checked, so that nothing wins by doing less.
  * bench/kernel count LANES N: 1024 N points of the mix and nothing else, for batch_cost.sh to count instructions;
- * LANES alone: one point at a time.
+ * LANES alone: one point at a time; LANES lit: eight lanes, four lights at each point, 1024 N lights.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,12 +37,13 @@ static double weighted_mean(const workload *w)
     return sum / weight;
 }
 
-/* Four lights at each point, apart and together, at each width: what another light costs is the rest of four. */
+enum { LIGHTS = 4 }; /* at each point */
+
+/* So many lights at each point, apart and together, at each width: what another light costs is the rest of four. */
 static void race_lights(FILE *json, int rounds)
 {
     static const char *const names[4] = { "8 lanes, apart", "8 lanes, together", "16 lanes, apart",
                                           "16 lanes, together" };
-    enum { LIGHTS = 4 };
     static workload works[2];
     racer racers[4];
     runner runners[4];
@@ -76,11 +77,18 @@ static void race_lights(FILE *json, int rounds)
 static int run_alone(const char *lanes, int thousands)
 {
     static workload work;
-    const int is_alone = strcmp(lanes, "alone") == 0;
-    const counting_width width = is_alone ? counting_narrowest() : counting_widest((size_t)atoi(lanes));
-    if (!is_alone && width.lanes != (size_t)atoi(lanes))
+    const int is_alone = strcmp(lanes, "alone") == 0, is_lit = strcmp(lanes, "lit") == 0;
+    const size_t asked = is_lit ? 8 : (size_t)atoi(lanes);
+    const counting_width width = is_alone ? counting_narrowest(16) : counting_widest(asked);
+    if (!is_alone && width.lanes != asked)
         return 0;
     workload_fill(&work, &workload_kinds[0]);
+    if (is_lit) {
+        workload_add_lights(&work, LIGHTS, 1);
+        for (int i = 0; i < thousands; i += WORKLOAD_POINTS / 1024)
+            width.kernel(&work.points, WORKLOAD_POINTS, work.factor, work.facets);
+        return 1;
+    }
     for (int i = 0; i < thousands; i++) {
         const counting_points *const p = &work.points;
         const size_t at = (size_t)(i % (WORKLOAD_POINTS / 1024)) * 1024;
@@ -120,7 +128,7 @@ int main(int argc, char **argv)
         runners[count++].kernel = width.kernel;
     }
     racers[count] = (racer){ "ours, one point in 4 lanes", run, NULL };
-    runners[count++].kernel = counting_narrowest().kernel;
+    runners[count++].kernel = counting_narrowest(16).kernel;
     static workload work;
     fprintf(json, "{\n");
     for (int k = 0; k < WORKLOAD_KINDS; k++) {

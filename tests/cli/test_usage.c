@@ -66,9 +66,7 @@ static void unknown_option_names_the_nearest(void **state)
 static void options_of_later_versions_are_unknown(void **state)
 {
     (void)state;
-    static const char *const later[] = { "--frames", "--multiscatter" };
-    for (size_t i = 0; i < sizeof later / sizeof later[0]; ++i)
-        assert_refused(glint_run(NULL, "render", "a.gltf", "-o", "a.exr", later[i], "1"), 2, later[i]);
+    assert_refused(glint_run(NULL, "render", "a.gltf", "-o", "a.exr", "--multiscatter", "1"), 2, "--multiscatter");
 }
 
 /* "--s" would be --size, --spp or --seed today and another option tomorrow. */

@@ -86,8 +86,8 @@ static int render_apart(const scene *s, const preview_options *o, const char *re
     preview_statistics unused;
     ray_counts counts = { 0 };
     const bool both = strcmp(renderer, "both") == 0;
-    if (!stage_set_up(&st, s, o, &unused, r) || !view_set_up(&v, &st, o, r) || !film_of_options(o, &whole, r) ||
-        !film_of_options(o, &bare, r))
+    if (!stage_set_up(&st, s, o, (double)INFINITY, &unused, r) || !view_set_up(&v, &st, o, r) ||
+        !film_of_options(o, &whole, r) || !film_of_options(o, &bare, r))
         return fail(r->error);
     const tiles_job job = { .world = &v.world, .options = o, .samples = o->spp, .film = &whole };
     if (strcmp(renderer, "bare") != 0)

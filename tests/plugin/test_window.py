@@ -65,6 +65,17 @@ def previews():
     return [side for is_preview, side in rendered if is_preview]
 
 
+def pixels_of_sphere(material):
+    side = material.preview.image_size[0]
+    return numpy.array(material.preview.image_pixels_float[:], numpy.float32).reshape(side, side, 4)
+
+
+def middle_of_sphere(material):
+    picture = pixels_of_sphere(material)
+    side = picture.shape[0]
+    return picture[side // 4 : 3 * side // 4, side // 4 : 3 * side // 4, :3].reshape(-1, 3)
+
+
 def spheres_show_a_material(material, view):
     """The small one in the list of the material's slots, which Blender itself shows for EEVEE only, and a large one for libraries."""
     yield from show_material(view)
@@ -74,13 +85,13 @@ def spheres_show_a_material(material, view):
     yield from wait_for("the large sphere", lambda: max(previews()) > 100)
     yield 1.0
     yield from shoot(os.path.join(folder(), "slots.png"), view)
-    side = material.preview.image_size[0]
-    picture = numpy.array(material.preview.image_pixels_float[:], numpy.float32).reshape(side, side, 4)
-    ball = picture[side // 4 : 3 * side // 4, side // 4 : 3 * side // 4, :3].reshape(-1, 3)
+    # The engine is done before Blender has put its picture into the material: on a busy machine, by more than a second.
+    yield from wait_for("the large sphere's pixels", lambda: middle_of_sphere(material).max(axis=1).min() > 0.0)
+    ball = middle_of_sphere(material)
     red, _, blue = ball.mean(axis=0)
     assert red > 1.3 * blue > 0.0, f"a ball of copper is {ball.mean(axis=0)}"
     assert ball.std(axis=0).max() > 0.05, "no flake is to be seen"
-    save(picture, "sphere")
+    save(pixels_of_sphere(material), "sphere")
 
 
 def save(picture, name):
@@ -96,11 +107,19 @@ def save(picture, name):
 def the_plan_is_shown(view):
     view.spaces[0].context = "RENDER"
     yield 0.5
+    before, after = (os.path.join(folder(), name + ".png") for name in ("unplanned", "plan"))
+    shoot_area(before, view)
     with bpy.context.temp_override(**override(view)):
         assert bpy.ops.glint.plan() == {"FINISHED"}
     yield 0.5
-    with bpy.context.temp_override(**override(view)):
-        bpy.ops.screen.screenshot_area(filepath=os.path.join(folder(), "plan.png"))  # as docs/blender.md shows it
+    shoot_area(after, view)  # as docs/blender.md shows it
+    rows = numpy.any(pixels_of(after) != pixels_of(before), axis=(1, 2)).sum()
+    assert rows > 300, f"{rows} rows of pixels show the plan"
+
+
+def shoot_area(path, of):
+    with bpy.context.temp_override(**override(of)):
+        bpy.ops.screen.screenshot_area(filepath=path)
 
 
 # ---- jobs ----

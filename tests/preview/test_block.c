@@ -48,7 +48,7 @@ static void compare(const scene *s, const preview_options *o, const char *name)
     preview_statistics unused;
     report r = { 0 };
     int lit = 0;
-    if (!stage_set_up(&st, s, o, &unused, &r) || !view_set_up(&v, &st, o, &r))
+    if (!stage_set_up(&st, s, o, (double)INFINITY, &unused, &r) || !view_set_up(&v, &st, o, &r))
         fail_msg("%s: %s", name, r.error);
     /* A sample by itself has kernels of one lane; the widest come last. */
     for (int lanes = 1; lanes <= KERNELS_WIDEST; lanes *= 2) {

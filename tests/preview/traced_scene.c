@@ -21,13 +21,18 @@ static void count_warning(const char *text, void *user)
     ++((traced_scene *)user)->warnings;
 }
 
-void traced_open(traced_scene *t, const scene *s, trace_opacity opacity)
+void traced_open_in(traced_scene *t, const scene *s, trace_trees trees, trace_opacity opacity)
 {
     *t = (traced_scene){ 0 };
     report r = { .warn = count_warning, .user = t };
     if (!geometry_make(s, &t->geometry, &r) ||
-        !trace_build(&t->geometry, opacity != NULL ? opacity : opaque, t, &t->trace, &r))
+        !trace_build(&t->geometry, trees, opacity != NULL ? opacity : opaque, t, &t->trace, &r))
         fail_msg("%s", r.error);
+}
+
+void traced_open(traced_scene *t, const scene *s, trace_opacity opacity)
+{
+    traced_open_in(t, s, TRACE_TREES_FINE, opacity);
 }
 
 void traced_close(traced_scene *t)

@@ -12,6 +12,8 @@ typedef struct traced_scene {
 
 /* opacity may be NULL: 1 everywhere. Fails the test when the scene cannot be built. */
 void traced_open(traced_scene *t, const scene *s, trace_opacity opacity);
+/* The same with trees of either kind. */
+void traced_open_in(traced_scene *t, const scene *s, trace_trees trees, trace_opacity opacity);
 void traced_close(traced_scene *t);
 
 /* A ray from one point through another. */

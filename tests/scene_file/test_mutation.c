@@ -1,4 +1,5 @@
-/* Ten thousand broken files: each is refused with a reason or gives a whole scene, and none takes long or much memory.
+/* Thirteen thousand broken files: each is refused with a reason or gives a whole scene, and none takes long or much
+ * memory.
  *
  * The mutants follow from fixed seeds, so that a failure can be repeated; tests/fuzz searches further. */
 #define SEEDS_FOLDER GLINT_TEST_DATA "/"
@@ -10,6 +11,7 @@
 #include <sys/resource.h>
 
 #include "gltf_case.h"
+#include "io/scene_motion.h"
 #include "mutant.h"
 #include "scene_fault.h"
 
@@ -93,6 +95,35 @@ static void check_mutants(gltf_case *c, const char *name, const char *path, unsi
     free(seed.data);
 }
 
+/* At rest and in three poses a scene that is accepted must be whole. */
+static void mutants_of_a_file_that_moves_are_whole_or_refused(void **state)
+{
+    gltf_case *c = *state;
+    const bytes seed = bytes_read(SEEDS_FOLDER "moving.gltf");
+    int accepted = 0;
+    for (unsigned i = 0; i < 3000; i++) {
+        const bytes mutant = mutant_of(seed, i, mutate);
+        gltf_case_write(c, "scene.gltf", mutant.data, mutant.size);
+        free(mutant.data);
+        scene_motion *motion;
+        scene_free(&c->scene);
+        c->said.error[0] = '\0';
+        if (!scene_motion_open(c->path, NULL, NULL, &c->scene, &motion, &c->said) &&
+            (c->said.error[0] == '\0' || c->scene.meshes || motion))
+            fail_msg("mutant %u: refused without a reason, or not emptied", i);
+        accepted += motion != NULL;
+        for (int k = 0; motion && k < 3; k++) {
+            scene_motion_pose(motion, 0.4 * k, &c->scene, &c->said);
+            const char *fault = scene_fault(&c->scene);
+            if (fault)
+                fail_msg("mutant %u at %g s: %s", i, 0.4 * k, fault);
+        }
+        scene_motion_close(motion);
+    }
+    free(seed.data);
+    assert_true(accepted > 100); /* else nothing was posed */
+}
+
 /* ru_maxrss counts KiB; sanitizers keep freed memory for a while, so the bound is generous: 2 GiB. */
 static void assert_little_memory(void)
 {
@@ -143,6 +174,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_case_begin, gltf_case_end)
     const struct CMUnitTest tests[] = {
         TEST(mutants_of_a_file_with_everything_are_whole_or_refused),
+        TEST(mutants_of_a_file_that_moves_are_whole_or_refused),
         TEST(mutants_of_real_files_are_whole_or_refused),
         TEST(mutants_of_draco_data_are_whole_or_refused),
     };

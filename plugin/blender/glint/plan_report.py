@@ -101,6 +101,14 @@ def keep(plan, rows, scene):
     plan.conclusion = "\n".join(conclusion(outcome_of(rows[0]), scene.glint.accuracy, width * height))
 
 
+def redraw_panels(manager):
+    """Blender itself draws only the region of a button that was pressed: not for a script, a shortcut or the search menu."""
+    for window in manager.windows:
+        for area in window.screen.areas:
+            if area.type == "PROPERTIES":
+                area.tag_redraw()
+
+
 class GLINT_OT_plan(bpy.types.Operator):
     """Look at a few hundred pixels and say what the render will do, what it will leave out, and what each costs"""
 
@@ -118,6 +126,7 @@ class GLINT_OT_plan(bpy.types.Operator):
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
         keep(context.window_manager.glint_plan, rows, context.scene)
+        redraw_panels(context.window_manager)
         return {"FINISHED"}
 
 
