@@ -32,8 +32,8 @@ static inline double sampling_expect_cell(const glint_material *m, const glint_f
     return SAMPLING_COUNT * sum * turn / (rows * columns);
 }
 
-/* By fine x fine points where a cell may be judged by itself, which takes 10 samples. By its middle where it is joined
- * with all others, which expect what is left of the samples, whatever is said here of each. */
+/* By fine x fine points where a cell matters: where it expects as many samples as a tenth of what is judged at once. By
+ * its middle elsewhere. The horizon is left what the cells do not expect. */
 static inline void sampling_expect(sampling_counts *n, const glint_material *m, const glint_footprint *f,
                                    const float wo[3], int fine)
 {
@@ -42,7 +42,7 @@ static inline void sampling_expect(sampling_counts *n, const glint_material *m, 
         for (int k = 0; k < SAMPLING_COLUMNS; k++) {
             double *const expected = &n->expected[i * SAMPLING_COLUMNS + k];
             *expected = sampling_expect_cell(m, f, wo, i, k, 1);
-            if (*expected > 5.0)
+            if (*expected > 1.0)
                 *expected = sampling_expect_cell(m, f, wo, i, k, fine);
             n->below_expected -= *expected;
         }
@@ -67,23 +67,36 @@ static inline void sampling_draw(sampling_counts *n, const glint_material *m, co
     }
 }
 
-/* chi^2; cells that expect less than 10 are joined with what lies below the horizon. *cells: degrees of freedom. */
+/* A run of cells that is judged at once. */
+typedef struct sampling_run {
+    double expected, seen;
+} sampling_run;
+
+static inline double sampling_run_square(const sampling_run *run)
+{
+    return (run->seen - run->expected) * (run->seen - run->expected) / run->expected;
+}
+
+/* chi^2 over runs of cells of a row, each as long as it takes to expect 10 samples; what is left of a row goes on to
+ * the next, and what is left at the end is joined with what lies below the horizon. *cells: degrees of freedom. */
 static inline double sampling_chi_square(const sampling_counts *n, double *cells)
 {
-    double chi2 = 0.0, rest_seen = n->below_seen, rest_expected = n->below_expected;
+    double chi2 = 0.0;
+    sampling_run run = { 0 };
     *cells = 0.0;
     for (int i = 0; i < SAMPLING_ROWS * SAMPLING_COLUMNS; i++) {
-        const double expected = n->expected[i], difference = n->seen[i] - expected;
-        if (expected >= 10.0) {
-            chi2 += difference * difference / expected;
+        run.expected += n->expected[i];
+        run.seen += n->seen[i];
+        if (run.expected >= 10.0) {
+            chi2 += sampling_run_square(&run);
             *cells += 1.0;
-        } else {
-            rest_seen += n->seen[i];
-            rest_expected += expected;
+            run = (sampling_run){ 0 };
         }
     }
-    if (rest_expected >= 10.0)
-        chi2 += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
+    run.expected += n->below_expected;
+    run.seen += n->below_seen;
+    if (run.expected >= 10.0)
+        chi2 += sampling_run_square(&run);
     return chi2;
 }
 
