@@ -92,10 +92,9 @@ static inline vfloat exp_negative(vfloat t)
     return choose(less(t, splat(-87.0F)), splat(0.0F), (q + 1.0F) * s);
 }
 
-/* sin and cos of pi x for x in [0, 1). */
-static inline void sincos_pi(vfloat x, vfloat *s, vfloat *c)
+/* sin and cos of pi (y + 1/2) for y in [-1/2, 1/2]: the cosine, -sin(pi y), keeps its relative precision near 0. */
+static inline void sincos_pi_past_quarter(vfloat y, vfloat *s, vfloat *c)
 {
-    const vfloat y = x - 0.5F; /* sin(pi x) = cos(pi y), cos(pi x) = -sin(pi y) */
     const vfloat z = y * y;
     vfloat a = 0.23533063F - 0.02580689F * z;
     a = a * z - 1.33526277F;
@@ -108,6 +107,12 @@ static inline void sincos_pi(vfloat x, vfloat *s, vfloat *c)
     b = b * z - 5.16771278F;
     b = b * z + 3.14159265F;
     *c = -y * b;
+}
+
+/* sin and cos of pi x for x in [0, 1). */
+static inline void sincos_pi(vfloat x, vfloat *s, vfloat *c)
+{
+    sincos_pi_past_quarter(x - 0.5F, s, c);
 }
 
 /* Angle of (x, y) in turns, in [0, 1): atan2(y, x) / (2 pi) modulo 1. 0 for (0, 0). */

@@ -24,9 +24,11 @@ glint_area_light area_turn(const glint_area_light *from, vec3 x, vec3 y, vec3 z)
 /* All zero where the point sees nothing of the light. */
 void area_eval(const model_query *q, area_value *value);
 
-/* The same by two methods: few points of a light over which the lobe hardly bends (area_plain.h), and one for any
- * light. The first returns the share of the result that has to come from the second. */
+/* The same by three methods: few points of a light over which the lobe hardly bends (area_plain.h); points of its parts
+ * (area_cells.h); and one for any light. Each returns the share of the result that has to come from those after it.
+ * most: how much the whole light may bend the lobe. */
 float area_eval_plain(const model_query *q, area_value *value);
+float area_eval_parts(const model_query *q, const area_light *light, float most, area_value *value);
 void area_eval_any(const model_query *q, area_value *value);
 void area_mix(area_value *value, const area_value *other, float share);
 

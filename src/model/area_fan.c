@@ -1,7 +1,6 @@
 /* A plain polygon at one point: what area_polygon.h has for many, with corners side by side instead. */
 #define GLINT_LANES 8
-#include "model/area_fold.h"
-#include "model/area_nodes.h"
+#include "model/area_eight.h"
 #include "model/area_polygon.h"
 
 /* Corners, and the first again for all that there are not. */
@@ -77,11 +76,11 @@ static inline int find_shape(ring *r, int count, plain_shape *s)
     store_ring(r, PLAIN_CORNERS, first);
     const vfloat3 next = load_ring(r, 1), off = plain_minus(at, s->middle), side = plain_minus(next, at),
                   across = plain_minus(at, first);
-    s->reach = sqrt_f(greatest(dot_3(off, off)));
-    s->height = greatest(abs_f(off.z));
+    s->extent.reach = sqrt_f(greatest(dot_3(off, off)));
+    s->extent.height = greatest(abs_f(off.z));
     s->side2 = greatest(dot_3(side, side));
     s->diagonal2 = greatest(choose(equal_i(odd, splat_i(1)), dot_3(across, across), zero));
-    s->facing = 0.5F * dot_3(sum_of(cross_3(off, plain_minus(next, s->middle))), s->middle);
+    plain_set_facing(s, sum_of(cross_3(off, plain_minus(next, s->middle))));
     return 1;
 }
 
@@ -123,12 +122,11 @@ int AREA_FAN_OF(const float (*corner)[3], int count, int two_sided, area_nodes *
     close_ring(corner, count, &r);
     if (!find_shape(&r, count, &s))
         return PLAIN_LEFT;
-    const area_lobe lobe = area_lobe_of(n->is_ggx, n->is_schlick, splat3(n->wo.x, n->wo.y, n->wo.z),
-                                        splat(n->visible_o), splat(n->alpha_x), splat(n->alpha_y));
+    const area_lobe lobe = area_lobe_seen(&n->eye);
     /* Both bends at once, that of the wide squares in the first lane. */
     const vint first = { 1, 0, 0, 0, 0, 0, 0, 0 };
     const vfloat size = choose(equal_i(first, splat_i(1)), plain_wide(&s), plain_slim(&s));
-    const vfloat bend = plain_bend(&lobe, s.middle, size, s.reach, s.height);
+    const vfloat bend = plain_bend(&lobe, s.middle, size, &s.extent);
     vmask from_middle;
     const plain_light p =
         plain_polygon_rule(&s, splat_i(count), splat_i(two_sided), splat(bend[0]), splat(bend[1]), &from_middle);

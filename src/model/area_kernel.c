@@ -56,9 +56,8 @@ static light_parts parts_of(const area_lobe *l, const plain_query *q, const plai
         vmask from_middle;
         const plain_shape shape = plain_shape_of(&corners);
         const plain_light polygon = plain_polygon_rule(
-            &shape, corners.count, q->two_sided,
-            plain_bend(l, shape.middle, plain_wide(&shape), shape.reach, shape.height),
-            plain_bend(l, shape.middle, plain_slim(&shape), shape.reach, shape.height), &from_middle);
+            &shape, corners.count, q->two_sided, plain_bend(l, shape.middle, plain_wide(&shape), &shape.extent),
+            plain_bend(l, shape.middle, plain_slim(&shape), &shape.extent), &from_middle);
         light.rule = choose_i(is_polygon, polygon.rule, light.rule);
         light.left = choose(is_polygon, polygon.left, light.left);
         p.quad_count =

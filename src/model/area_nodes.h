@@ -3,7 +3,7 @@
 #define MODEL_AREA_NODES_H
 
 #include "light/cubature.h"
-#include "math/vec3.h"
+#include "model/area.h"
 
 enum { AREA_ROOM = 8 };
 
@@ -13,11 +13,16 @@ typedef struct area_parts {
     float size[AREA_ROOM], size_x[AREA_ROOM], size_y[AREA_ROOM];
 } area_parts;
 
-/* What area_lobe has, and a light. */
-typedef struct area_nodes {
+/* What area_lobe has. */
+typedef struct area_eye {
     int is_ggx, is_schlick, has_base;
     vec3 wo;
     float visible_o, alpha_x, alpha_y;
+} area_eye;
+
+/* That, and a light. */
+typedef struct area_nodes {
+    area_eye eye;
     int is_bent, count; /* bent: the parts are those of a polygon */
     area_parts parts;
 } area_nodes;
@@ -29,6 +34,10 @@ typedef struct area_node_sums {
 } area_node_sums;
 
 typedef void area_nodes_sum(const area_nodes *n, const cubature *rule, area_node_sums *sums);
+
+/* What the query asks of the lobe, and what its sums come to. */
+area_eye area_eye_of(const model_query *q);
+void area_shade(const model_query *q, const area_node_sums *sums, area_value *value);
 
 /* Sets parts, of a polygon of 3 to 8 corners; and returns plain_light's rule, and what is left. */
 typedef int area_fan_of(const float (*corner)[3], int count, int two_sided, area_nodes *n, float *left);

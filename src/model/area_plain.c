@@ -62,35 +62,45 @@ static machine this_machine(void)
     return (machine){ area_nodes_sum_base, area_fan_of_base };
 }
 
-static void begin_nodes(const model_query *q, const area_lobe *l, area_nodes *n)
+static inline __attribute__((always_inline)) area_eye eye_of(const model_query *q)
 {
-    n->is_ggx = l->is_ggx;
-    n->is_schlick = l->is_schlick;
-    n->has_base = has_base(q);
-    n->wo = q->wo;
-    n->visible_o = l->visible_o;
-    n->alpha_x = l->alpha_x;
-    n->alpha_y = l->alpha_y;
+    const glint_material_options *o = &q->material->options;
+    const ndf_kind kind = lobe_kind(o);
+    const float x = q->surface->alpha_x, y = q->surface->alpha_y;
+    return (area_eye){ kind == NDF_GGX,
+                       o->fresnel == GLINT_FRESNEL_SCHLICK,
+                       has_base(q),
+                       q->wo,
+                       q->wo.z + ndf_masked_of(kind, x, y, of(q->wo)),
+                       x,
+                       y };
 }
 
-static plain_sums sums_of(const area_nodes *n, int rule)
+static inline __attribute__((always_inline)) void shade(const model_query *q, const plain_query *plain,
+                                                        const area_node_sums *s, area_value *value)
 {
-    area_node_sums s;
-    this_machine().sum(n, plain_rule(rule), &s);
-    return (plain_sums){ { s.reflected, { s.fresnel[0], s.fresnel[1] }, s.facets, s.x, s.y, s.z, s.cap },
-                         { s.cosine[0], s.cosine[1], s.cosine[2] } };
-}
-
-static void shade(const model_query *q, const plain_query *plain, const plain_sums *sums, area_value *value)
-{
+    const glint_material_options *const o = &q->material->options;
+    const plain_sums sums = { { s->reflected, { s->fresnel[0], s->fresnel[1] }, s->facets, s->x, s->y, s->z, s->cap },
+                              { s->cosine[0], s->cosine[1], s->cosine[2] } };
     plain_value v;
-    plain_shade(&q->material->options, plain, sums, has_base(q), &v);
-    const area_lit lit = plain_lit(&q->material->options, plain, sums);
+    plain_shade(o, plain, &sums, has_base(q), &v);
+    const area_lit lit = plain_lit(o, plain, &sums);
     *value = (area_value){ .lit_probability = lit.p, .h = vec3_of(lit.h), .cap = lit.cap };
     for (int c = 0; c < 3; c++) {
         value->specular[c] = v.specular[c];
         value->diffuse[c] = v.diffuse[c];
     }
+}
+
+area_eye area_eye_of(const model_query *q)
+{
+    return eye_of(q);
+}
+
+void area_shade(const model_query *q, const area_node_sums *sums, area_value *value)
+{
+    const plain_query plain = query_of(q);
+    shade(q, &plain, sums, value);
 }
 
 static plain_light take_polygon(const model_query *q, area_nodes *n)
@@ -109,10 +119,13 @@ static void store_3(float to[3][AREA_ROOM], vfloat3 v)
     to[2][0] = v.z;
 }
 
-static plain_light take_one(const model_query *q, const area_lobe *l, const plain_query *plain, area_nodes *n)
+static plain_light take_one(const model_query *q, const plain_query *plain, area_nodes *n)
 {
     const plain_limits most = plain_limits_of(&q->material->options);
-    const plain_light p = plain_light_of(l, plain, &most);
+    const area_eye *const eye = &n->eye;
+    const area_lobe l =
+        area_lobe_of(eye->is_ggx, eye->is_schlick, of(eye->wo), eye->visible_o, eye->alpha_x, eye->alpha_y);
+    const plain_light p = plain_light_of(&l, plain, &most);
     n->is_bent = 0;
     n->count = 1;
     store_3(n->parts.middle, p.middle);
@@ -128,17 +141,15 @@ float area_eval_plain(const model_query *q, area_value *value)
 {
     const glint_material_options *o = &q->material->options;
     const plain_query plain = query_of(q);
-    const lobe_query *const s = &plain.lobe;
-    const area_lobe l =
-        area_lobe_of(lobe_kind(o) == NDF_GGX, o->fresnel == GLINT_FRESNEL_SCHLICK, s->wo,
-                     s->wo.z + ndf_masked_of(lobe_kind(o), s->alpha_x, s->alpha_y, s->wo), s->alpha_x, s->alpha_y);
     area_nodes nodes;
-    begin_nodes(q, &l, &nodes);
+    nodes.eye = eye_of(q);
     const int is_polygon = q->area_light->kind == GLINT_AREA_POLYGON && o->area_light_method != GLINT_AREA_LIGHT_EXACT;
-    const plain_light p = is_polygon ? take_polygon(q, &nodes) : take_one(q, &l, &plain, &nodes);
+    const plain_light p = is_polygon ? take_polygon(q, &nodes) : take_one(q, &plain, &nodes);
     if (p.rule == PLAIN_LEFT)
         return 1.0F;
-    const plain_sums sums = p.rule == PLAIN_DARK ? plain_no_sums() : sums_of(&nodes, p.rule);
+    area_node_sums sums = { .reflected = 0.0F };
+    if (p.rule != PLAIN_DARK)
+        this_machine().sum(&nodes, plain_rule(p.rule), &sums);
     shade(q, &plain, &sums, value);
     return p.left;
 }

@@ -47,11 +47,12 @@ typedef struct plain_light {
 
 /* The size over the distance of singularities up to which each level is good for; the finest gives way to the other
  * method from PLAIN_FADES on. Of a pole the rules leave 2e-5, 5e-4, 8e-4 and 1.5e-3 there; of lights that come so near,
- * 95 of 100 are within 3e-4 (tests/study/plain_lights.c). */
+ * 95 of 100 are within 1e-3 (tests/study/plain_lights.c). */
+#define PLAIN_SLIGHT 0.1F /* of a cell's other axis: two of Gauss's nodes */
 #define PLAIN_COARSE 0.35F
 #define PLAIN_MIDDLE 0.9F
 #define PLAIN_FINE 1.6F
-#define PLAIN_FADES 2.1F
+#define PLAIN_FADES 2.3F
 #define PLAIN_FINEST 2.4F
 
 /* How far each level goes. */
@@ -104,6 +105,9 @@ static inline void plain_add_round(const plain_query *q, vmask is_sphere, vmask 
 
 /* ---- how much the lobe bends over it ---- */
 
+/* The widest that a light is seen, by the squares of its half axes: up to 55 degrees to either side. */
+#define PLAIN_WIDEST 4.0F
+
 /* Of slopes: how far the half vectors of the light reach, g, and how far its middle is from the peak, s. From the half
  * vector to slopes its angle is stretched by 1 / cos^2, and from the light's directions by 1 / (2 h.wi) across the
  * plane of both. */
@@ -121,16 +125,43 @@ static inline vfloat plain_bend_of_density(const area_lobe *l, vfloat3 middle, v
     return g / sqrt_f(1.0F + nearest * nearest);
 }
 
-/* Size over distance of the nearest singularity: of the density; of masking, near the horizon; of solid angles, near
- * the light. size, reach and height: how far the light goes from its middle along an axis, in all and up or down. */
-static inline vfloat plain_bend(const area_lobe *l, vfloat3 middle, vfloat size, vfloat reach, vfloat height)
+/* Where a light lies from its middle, whose distance is one. */
+typedef struct plain_extent {
+    vfloat reach, height; /* how far it goes in all, and up or down */
+    vfloat off_plane;     /* how far the point is from the plane of the light */
+} plain_extent;
+
+/* The inverse distances of what bends all lobes alike: masking, near the horizon; solid angles, near the light, where
+ * slopes are not linear over it either, which is why they count more: a fit; and half vectors, whose density is
+ * infinite opposite to the viewer, below the horizon. */
+typedef struct plain_nearness {
+    vfloat of_horizon, of_poles;
+} plain_nearness;
+
+static inline plain_nearness plain_nearness_of(const area_lobe *l, vfloat3 middle, const plain_extent *e)
 {
-    const vfloat within = min_f(reach, splat(0.99F)), near = middle.z - height, alpha = min_f(l->alpha_x, l->alpha_y);
-    /* A light that touches the horizon is cut by it sooner or later. */
-    const vfloat of_horizon = 0.2F * height / max_f(near, splat(1e-6F));
-    const vfloat of_masking = max_f(height / sqrt_f(near * near + alpha * alpha), of_horizon);
-    const vfloat of_distance = 0.6F * within / (1.0F - within);
-    return max_f(plain_bend_of_density(l, middle, size, within), max_f(of_masking, of_distance));
+    const vfloat lowest = middle.z - e->height, alpha = min_f(l->alpha_x, l->alpha_y);
+    const vfloat3 h = add_3(middle, l->wo);
+    const vfloat to_light = (1.0F / 1.6F) * max_f(1.0F - e->reach, e->off_plane),
+                 to_opposite = max_f(sqrt_f(dot_3(h, h)) - e->reach, lowest + l->wo.z);
+    return (plain_nearness){ 1.0F / sqrt_f(lowest * lowest + alpha * alpha),
+                             1.0F / max_f(min_f(to_light, to_opposite), splat(1e-3F)) };
+}
+
+/* Size over distance of the nearest singularity along an axis that goes so far from the middle, in all and up or down.
+ */
+static inline vfloat plain_bend_along(const area_lobe *l, vfloat3 middle, vfloat size, vfloat height, vfloat reach,
+                                      const plain_nearness *near)
+{
+    return max_f(plain_bend_of_density(l, middle, size, reach),
+                 max_f(size * near->of_poles, height * near->of_horizon));
+}
+
+/* Of the longer axis. */
+static inline vfloat plain_bend(const area_lobe *l, vfloat3 middle, vfloat size, const plain_extent *e)
+{
+    const plain_nearness near = plain_nearness_of(l, middle, e);
+    return plain_bend_along(l, middle, size, e->height, e->reach, &near);
 }
 
 static inline vint plain_level(vfloat bend, const plain_limits *most)
@@ -144,6 +175,15 @@ static inline vint plain_level(vfloat bend, const plain_limits *most)
 static inline vfloat plain_share_left(vfloat bend, float fades, float most)
 {
     return min_f(max_f((bend - fades) * (1.0F / (most - fades)), splat(0.0F)), splat(1.0F));
+}
+
+/* Of a square or a disk. */
+static inline plain_extent plain_extent_of(const plain_light *p, vmask is_square)
+{
+    const vfloat3 normal = cross_3(p->u, p->v);
+    const vfloat square = abs_f(p->u.z) + abs_f(p->v.z), disk = sqrt_f(p->u.z * p->u.z + p->v.z * p->v.z);
+    return (plain_extent){ sqrt_f(dot_3(p->u, p->u) + dot_3(p->v, p->v)), choose(is_square, square, disk),
+                           abs_f(dot_3(normal, p->middle)) / sqrt_f(max_f(dot_3(normal, normal), splat(1e-36F))) };
 }
 
 static inline plain_light plain_light_of(const area_lobe *l, const plain_query *q, const plain_limits *most)
@@ -164,8 +204,8 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
     const vfloat3 half_x = choose_3(usable & is_flat, q->half_x, none);
     const vfloat3 half_y = choose_3(usable & is_flat, q->half_y, none);
     /* Farther than it is wide, and so that no square is too large or too small a number. */
-    vmask plain =
-        usable & less(splat(1e-30F), distance2) & less(dot_3(half_x, half_x) + dot_3(half_y, half_y), distance2);
+    vmask plain = usable & less(splat(1e-30F), distance2) &
+                  less(dot_3(half_x, half_x) + dot_3(half_y, half_y), PLAIN_WIDEST * distance2);
     const vfloat inverse = choose(plain, 1.0F / choose(plain, sqrt_f(distance2), one), zero);
     plain_light p = { .middle = scale_3(center, inverse),
                       .u = scale_3(half_x, inverse),
@@ -173,23 +213,24 @@ static inline plain_light plain_light_of(const area_lobe *l, const plain_query *
     if (any(is_round))
         plain_add_round(q, is_sphere, is_round & plain, inverse, p.middle, &p.u, &p.v);
 
+    const vmask is_square = is_flat & ~is_disk;
     const vfloat u2 = dot_3(p.u, p.u), v2 = dot_3(p.v, p.v), facing = dot_3(cross_3(p.u, p.v), p.middle);
     /* Seen at an angle, neither so wide that plain_add_round does not know it nor so small that its area has no digits.
      */
-    plain = plain & less(u2 + v2, one) & less(splat(1e-16F), u2) & less(splat(1e-16F), v2) &
+    plain = plain & less(u2 + v2, splat(PLAIN_WIDEST)) & less(splat(1e-16F), u2) & less(splat(1e-16F), v2) &
             less(4e-4F * (u2 * v2), facing * facing);
-    const vfloat height = abs_f(p.u.z) + abs_f(p.v.z),
-                 bend = plain_bend(l, p.middle, sqrt_f(max_f(u2, v2)), sqrt_f(u2 + v2), height);
+    const plain_extent extent = plain_extent_of(&p, is_square);
+    const vfloat height = extent.height, bend = plain_bend(l, p.middle, sqrt_f(max_f(u2, v2)), &extent);
     const vmask is_away = is_flat & equal_i(q->two_sided, splat_i(0)) & less(zero, facing);
     const vmask is_dark = plain & (is_away | less(p.middle.z + height, splat(-1e-4F)));
     plain = plain & less(height, p.middle.z) & less(bend, splat(most->finest)) & ~is_dark;
 
-    const vint shape = choose_i(is_flat & ~is_disk, splat_i(CUBATURE_SQUARE * CUBATURE_LEVELS),
-                                splat_i(CUBATURE_DISK * CUBATURE_LEVELS));
+    const vint shape =
+        choose_i(is_square, splat_i(CUBATURE_SQUARE * CUBATURE_LEVELS), splat_i(CUBATURE_DISK * CUBATURE_LEVELS));
     const vint rule = choose_i(is_dark, splat_i(PLAIN_DARK), splat_i(PLAIN_LEFT));
     p.rule = choose_i(plain, shape + plain_level(bend, most), rule);
     p.left = choose(plain, plain_share_left(bend, most->fades, most->finest), choose(is_dark, zero, one));
-    p.size = abs_f(facing) * choose(is_flat & ~is_disk, splat(4.0F), splat(MATH_PI));
+    p.size = abs_f(facing) * choose(is_square, splat(4.0F), splat(MATH_PI));
     return p;
 }
 

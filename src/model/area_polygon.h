@@ -19,7 +19,7 @@ enum { PLAIN_CORNERS = GLINT_MAX_CORNERS, PLAIN_QUADS = PLAIN_CORNERS / 2 };
 typedef struct plain_shape {
     vmask usable;
     vfloat3 middle;          /* unit */
-    vfloat reach, height;    /* how far corners are from there, in all and up or down */
+    plain_extent extent;     /* of all corners */
     vfloat facing;           /* its area seen along the middle, signed */
     vfloat side2, diagonal2; /* squared: its longest side, and from its first corner to every second one */
 } plain_shape;
@@ -64,24 +64,32 @@ static inline vfloat plain_wide(const plain_shape *s)
 
 static inline vfloat plain_slim(const plain_shape *s)
 {
-    return 0.5F * sqrt_f(max_f(s->side2, s->reach * s->reach));
+    return 0.5F * sqrt_f(max_f(s->side2, s->extent.reach * s->extent.reach));
+}
+
+/* normals: the sum of what neighbouring corners span with the middle. */
+static inline void plain_set_facing(plain_shape *s, vfloat3 normals)
+{
+    const vfloat along = dot_3(normals, s->middle), length2 = dot_3(normals, normals);
+    s->facing = 0.5F * along;
+    s->extent.off_plane = abs_f(along) / sqrt_f(max_f(length2, splat(1e-30F)));
 }
 
 /* As plain_light_of, whose middle, u, v and size are not set here; bends by both kinds of squares. */
 static inline plain_light plain_polygon_rule(const plain_shape *s, vint count, vint two_sided, vfloat bend_of_wide,
                                              vfloat bend_of_slim, vmask *from_middle)
 {
-    const vfloat zero = splat(0.0F), reach2 = s->reach * s->reach;
+    const vfloat zero = splat(0.0F), reach2 = s->extent.reach * s->extent.reach;
     const plain_limits most = plain_limits_fast();
     *from_middle =
         less_i(splat_i(4), count) & (less_i(plain_level(bend_of_slim, &most), plain_level(bend_of_wide, &most)) |
                                      ~less(bend_of_wide, splat(PLAIN_FADES)));
     const vfloat bend = choose(*from_middle, bend_of_slim, bend_of_wide);
-    vmask plain = s->usable & less(s->reach, splat(1.0F)) & less(splat(1e-8F), s->reach) &
+    vmask plain = s->usable & less(s->extent.reach, splat(2.0F)) & less(splat(1e-8F), s->extent.reach) &
                   less(1e-4F * (reach2 * reach2), s->facing * s->facing);
     const vmask is_away = equal_i(two_sided, splat_i(0)) & less(zero, s->facing);
-    const vmask is_dark = plain & (is_away | less(s->middle.z + s->height, splat(-1e-4F)));
-    plain = plain & less(s->height, s->middle.z) & less(bend, splat(PLAIN_FINEST)) & ~is_dark;
+    const vmask is_dark = plain & (is_away | less(s->middle.z + s->extent.height, splat(-1e-4F)));
+    plain = plain & less(s->extent.height, s->middle.z) & less(bend, splat(PLAIN_FINEST)) & ~is_dark;
     const vint rule = choose_i(is_dark, splat_i(PLAIN_DARK), splat_i(PLAIN_LEFT));
     return (plain_light){ .rule = choose_i(plain, splat_i(PLAIN_POLYGON) + plain_level(bend, &most), rule),
                           .left = choose(plain, plain_share_left(bend, PLAIN_FADES, PLAIN_FINEST),
@@ -158,7 +166,7 @@ static inline plain_shape plain_shape_of(plain_corners *c)
     const vfloat3 up = { zero, zero, one };
     vfloat3 mean, normal[PLAIN_CORNERS];
     vfloat distance2, reach2 = zero;
-    plain_shape s = { .height = zero, .side2 = zero, .diagonal2 = zero };
+    plain_shape s = { .extent = { zero, zero, zero }, .side2 = zero, .diagonal2 = zero };
     s.usable = plain_find_mean(c, &mean, &distance2);
     const vfloat inverse = 1.0F / choose(s.usable, sqrt_f(distance2), one);
     s.middle = choose_3(s.usable, scale_3(mean, inverse), up);
@@ -171,13 +179,13 @@ static inline plain_shape plain_shape_of(plain_corners *c)
         const vfloat3 side = plain_minus(plain_corner(c, i + 1), c->at[i]),
                       across = plain_minus(c->at[i | 1], c->at[0]);
         reach2 = max_f(reach2, dot_3(off, off));
-        s.height = max_f(s.height, abs_f(off.z));
+        s.extent.height = max_f(s.extent.height, abs_f(off.z));
         s.side2 = max_f(s.side2, dot_3(side, side));
         s.diagonal2 = max_f(s.diagonal2, dot_3(across, across));
         normal[i] = cross_3(off, next);
     }
-    s.reach = sqrt_f(reach2);
-    s.facing = 0.5F * dot_3(plain_sum_eight(normal), s.middle);
+    s.extent.reach = sqrt_f(reach2);
+    plain_set_facing(&s, plain_sum_eight(normal));
     return s;
 }
 

@@ -9,7 +9,6 @@
 #include "preview/block.h"
 #include "preview/threads.h"
 
-#define TILE_SIZE (2 * BLOCK_SIDE)
 #define PROGRESS_INTERVAL_S 0.1
 
 typedef struct queue {
@@ -72,14 +71,12 @@ static void render_block(const queue *q, int x, int y, worker *own)
         }
 }
 
+/* A tile is a block: the fewer pixels it has, the less the threads wait for the last one, which shows in pictures of a
+ * few thousand. */
 static void render_tile(const queue *q, int index, worker *own)
 {
-    const int left = (q->first_column + index % q->columns) * TILE_SIZE;
-    const int top = (q->first_row + index / q->columns) * TILE_SIZE;
-    for (int y = top; y < top + TILE_SIZE && y < q->window.bottom; y += BLOCK_SIDE)
-        for (int x = left; x < left + TILE_SIZE && x < q->window.right && !cancelled(q->job); x += BLOCK_SIDE)
-            if (x + BLOCK_SIDE > q->window.left && y + BLOCK_SIDE > q->window.top)
-                render_block(q, x, y, own);
+    const int column = q->first_column + index % q->columns, row = q->first_row + index / q->columns;
+    render_block(q, column * BLOCK_SIDE, row * BLOCK_SIDE, own);
 }
 
 static void report_progress(const queue *q, double *reported_s)
@@ -134,11 +131,11 @@ static queue queue_of(const tiles_job *job)
     const int left = o->tile_width == 0 ? 0 : o->tile_x, top = o->tile_width == 0 ? 0 : o->tile_y;
     queue q = { .job = job,
                 .window = { left, top, left + job->film->width, top + job->film->height },
-                .first_column = left / TILE_SIZE,
-                .first_row = top / TILE_SIZE,
+                .first_column = left / BLOCK_SIDE,
+                .first_row = top / BLOCK_SIDE,
                 .started_s = now_s() };
-    q.columns = (q.window.right - 1) / TILE_SIZE - q.first_column + 1;
-    q.tile_count = q.columns * ((q.window.bottom - 1) / TILE_SIZE - q.first_row + 1);
+    q.columns = (q.window.right - 1) / BLOCK_SIDE - q.first_column + 1;
+    q.tile_count = q.columns * ((q.window.bottom - 1) / BLOCK_SIDE - q.first_row + 1);
     atomic_init(&q.next, 0);
     atomic_init(&q.done, 0);
     return q;

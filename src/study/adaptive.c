@@ -109,15 +109,18 @@ static void cut(const adaptive_task *t, cell *c, cell *other, const double whole
 adaptive_result adaptive_integrate(const adaptive_task *task)
 {
     cell cells[MOST_CELLS];
-    adaptive_result r;
-    int count = 0, worst;
+    adaptive_result r = { .cells = 0 };
+    int count = 0;
+    if (task->squares < 1)
+        return r;
     for (int i = 0; i < task->squares && count < MOST_CELLS; i++) {
         cells[count] = (cell){ .square = i, .width = 1.0, .height = 1.0 };
         measure(task, &cells[count++]);
     }
-    while (worst = add_up(task, cells, count, &r), r.error > task->tolerance && count < MOST_CELLS) {
-        cut(task, &cells[worst], &cells[count], r.value);
-        count++;
+    int worst = add_up(task, cells, count, &r);
+    while (count < MOST_CELLS && r.error > task->tolerance) {
+        cut(task, &cells[worst], &cells[count++], r.value);
+        worst = add_up(task, cells, count, &r);
     }
     return r;
 }

@@ -21,8 +21,8 @@ typedef struct area_truth_lobe {
 
 double area_truth_density(const area_truth_lobe *lobe, const double h[3]);
 double area_truth_masking(const area_truth_lobe *lobe, const double wo[3], const double wi[3]); /* G2 */
-/* What light from around a direction, of any length, adds; nothing from below the horizon. */
-void area_truth_add(area_truth *sum, const area_truth_lobe *lobe, const double wo[3], const double direction[3],
+/* What light from around a direction p, of any length, adds; nothing from below the horizon. */
+void area_truth_add(area_truth *sum, const area_truth_lobe *l, const double wo[3], const double p[3],
                     double solid_angle);
 
 /* side * side points. What is below the horizon adds nothing. */

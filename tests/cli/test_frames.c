@@ -242,6 +242,64 @@ static void time_alone_changes_nothing(void **state)
     assert_true(same_pixels("stay.0000.exr", "still.exr"));
 }
 
+/* Of the pixels that the plane covers; what is around is off. */
+static double middle_of_plane(const char *path)
+{
+    image p = picture_of(path);
+    const int alpha = image_channel(&p, "A");
+    double sum = 0.0, covered = 0.0;
+    for (int i = 0; i < p.width * p.height; ++i) {
+        const double a = (double)p.pixels[i * p.channel_count + alpha];
+        covered += a;
+        sum += a * (i % p.width);
+    }
+    image_free(&p);
+    assert_true(covered > 1.0);
+    return sum / covered;
+}
+
+/* A file without cameras is framed once for all of its animation: the plane crosses the picture. */
+static void view_of_glint_stands_still(void **state)
+{
+    (void)state;
+    keys k = plane;
+    k.times[1] = 2.0F;
+    k.values[0][0] = -1.0F;
+    k.values[1][0] = 1.0F;
+    write_scene("bare", &k, 2, "\"nodes\": [{ \"mesh\": 0 }, {}, {}, { \"children\": [0] }]",
+                MOVES("0", "translation", "LINEAR"));
+    render("bare.gltf", "-o", "bare.exr", "--frames", "0", "--environment-background", "off");
+    render("bare.gltf", "-o", "bare.exr", "--frames", "46-48", "--environment-background", "off");
+    render("bare.gltf", "-o", "alone.exr", "--frames", "48", "--environment-background", "off");
+    assert_same_files("bare.0048.exr", "alone.0048.exr");
+    /* By two widths of the plane, of the three that the view holds, seen a little from the side. */
+    assert_true(middle_of_plane("bare.0048.exr") - middle_of_plane("bare.0000.exr") > 40.0 / 3.0);
+}
+
+/* They stand around the view at time 0: as without frames there, and later not as around the view of then. */
+static void lights_of_glint_stand_still(void **state)
+{
+    (void)state;
+    render("dive.gltf", "-o", "set.exr", "--frames", "0", "--light-set", "three-point");
+    render("dive.gltf", "-o", "set.exr", "--frames", "24", "--light-set", "three-point");
+    render("dive.gltf", "-o", "rest.exr", "--light-set", "three-point");
+    assert_true(same_pixels("set.0000.exr", "rest.exr"));
+    write_scene("later", &plane, 2, NODES("0, 0, 0", "0.125, 1.5, 0", "0, 0, 0"), "");
+    render("later.gltf", "-o", "later.exr", "--light-set", "three-point");
+    assert_false(same_pixels("set.0024.exr", "later.exr"));
+    /* The studio of a file without lights. */
+    keys k = plane;
+    k.times[1] = 2.0F;
+    k.values[0][1] = k.values[1][1] = 2.0F;
+    write_scene("unlit", &k, 2,
+                "\"nodes\": [{ \"mesh\": 0 }, { \"camera\": 0, \"translation\": [0, 2, 0],"
+                "  \"rotation\": [-0.70710678, 0, 0, 0.70710678] }, {}, { \"children\": [0, 1] }]",
+                MOVES("1", "translation", "LINEAR"));
+    render("unlit.gltf", "-o", "unlit.exr", "--frames", "0-1");
+    render("unlit.gltf", "-o", "studio.exr");
+    assert_true(same_pixels("unlit.0001.exr", "studio.exr"));
+}
+
 /* ---- resume ---- */
 
 static struct timespec time_of(const char *path)
@@ -455,6 +513,8 @@ int main(void)
         TEST(frame_that_lies_on_a_key_shows_it),
         TEST(glints_stay_on_their_surface),
         TEST(time_alone_changes_nothing),
+        TEST(view_of_glint_stands_still),
+        TEST(lights_of_glint_stand_still),
         TEST(finished_frames_are_left),
         TEST(frames_of_other_options_do_not_pass_for_finished),
         TEST(what_is_no_frame_does_not_pass_for_one),

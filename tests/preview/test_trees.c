@@ -125,11 +125,12 @@ static void every_build_takes_the_same_of_triangles_that_coincide(void **state)
 static void few_samples_of_many_triangles_take_quick_trees(void **state)
 {
     (void)state;
+    enum { ENOUGH = SHARDS / 3 };
     scene s = shattered(SHARDS, 1);
     traced_scene t;
     traced_open(&t, &s, NULL);
-    assert_int_equal(trace_trees_for(&t.geometry, SHARDS / 3 - 1), TRACE_TREES_QUICK);
-    assert_int_equal(trace_trees_for(&t.geometry, SHARDS / 3), TRACE_TREES_FINE);
+    assert_int_equal(trace_trees_for(&t.geometry, ENOUGH - 1), TRACE_TREES_QUICK);
+    assert_int_equal(trace_trees_for(&t.geometry, ENOUGH), TRACE_TREES_FINE);
     assert_int_equal(trace_trees_for(&t.geometry, (double)INFINITY), TRACE_TREES_FINE);
     traced_close(&t);
     scene_free(&s);

@@ -66,7 +66,7 @@ static void nothing_to_count(void)
     const float n = f(0.0F), p = f(0.01F), count = f(n * p);
     naive_print(&(naive_row){ "no facets: a density texture says 0", "b(N, p) / (N p)", (double)(count / f(n * p)),
                               1.0L, pixel_over_smooth(0.0F, &pixel), "smooth where N p is below 3·10⁻¹⁰", "exact",
-                              "hard_cases" });
+                              "counting_edges" });
 }
 
 /* What a count that draws whole trials makes of a part of one. */
@@ -85,7 +85,7 @@ static void degenerate_pixels(void)
     const float area = fabsf(f(1e-3F * 1e-3F) - f(1e-3F * 1e-3F)), facets = f(1e6F * area);
     naive_print(&(naive_row){ "footprint of no area, or of rank one", "N = ρ A, then b(N, p) / (N p)",
                               (double)(f(facets * 0.01F) / f(facets * 0.01F)), 1.0L, pixel_over_smooth(1e6F, &rank_one),
-                              "smooth where N p is below 3·10⁻¹⁰", "exact", "hard_cases" });
+                              "smooth where N p is below 3·10⁻¹⁰", "exact", "counting_edges" });
     naive_print(&(naive_row){ "footprint with a derivative that is NaN or infinite", "N = ρ A, then b(N, p) / (N p)",
                               (double)(1e6F * fabsf(f(NAN) * 1e-3F)), 1.0L, pixel_over_smooth(1e6F, &broken),
                               "smooth where N is no finite number", "exact", "hard_cases" });

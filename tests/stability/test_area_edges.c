@@ -111,6 +111,24 @@ static void a_light_seen_edge_on_fades_and_goes_out(void **state)
         }
 }
 
+/* In any direction: a half axis is half of the way to the middle, exactly, so that the plane holds the point; what
+ * doubles make of the distance is rounding, and no light. */
+static void a_light_in_a_plane_through_the_point_is_dark(void **state)
+{
+    (void)state;
+    uint64_t random = 61;
+    for (int i = 0; i < 4000; i++) {
+        float center[3], along[3], across[3];
+        for (int k = 0; k < 3; k++) {
+            center[k] = (float)random_between(&random, k < 2 ? -1.0 : 0.1, 1.0);
+            along[k] = 0.5F * center[k];
+            across[k] = (float)random_between(&random, -0.5, 0.5);
+        }
+        const glint_area_light l = flat(i % 2 ? GLINT_AREA_RECTANGLE : GLINT_AREA_DISK, center, across, along);
+        assert_dark(&l);
+    }
+}
+
 static void a_light_behind_shows_nothing(void **state)
 {
     (void)state;
@@ -311,6 +329,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_light_seen_edge_on_fades_and_goes_out, with_traps, without_traps),
+        cmocka_unit_test_setup_teardown(a_light_in_a_plane_through_the_point_is_dark, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(a_light_behind_shows_nothing, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(a_light_astride_the_horizon_shows_its_upper_part, with_traps, without_traps),
         cmocka_unit_test_setup_teardown(a_light_that_touches_the_surface_is_no_exception, with_traps, without_traps),

@@ -59,9 +59,10 @@ static int take_round_or_square(const area_case *c, subject *s)
     s->light = plain_light_of(&s->lobe, &q, &most);
     s->shape = l->kind == GLINT_AREA_RECTANGLE ? SQUARE : DISK;
     const plain_light *p = &s->light;
-    const float u2 = dot_3(p->u, p->u), v2 = dot_3(p->v, p->v), height = fabsf(p->u.z) + fabsf(p->v.z);
-    s->bend = (double)plain_bend(&s->lobe, p->middle, sqrtf(fmaxf(u2, v2)), sqrtf(u2 + v2), height);
-    return u2 > 0.0F && p->middle.z > height;
+    const float u2 = dot_3(p->u, p->u), v2 = dot_3(p->v, p->v);
+    const plain_extent extent = plain_extent_of(p, -(s->shape == SQUARE));
+    s->bend = (double)plain_bend(&s->lobe, p->middle, sqrtf(fmaxf(u2, v2)), &extent);
+    return u2 > 0.0F && p->middle.z > extent.height;
 }
 
 /* From the first corner or from the middle. */
@@ -75,9 +76,8 @@ static int take_polygon(const area_case *c, int from_middle, subject *s)
     const int in_middle = from_middle && count > 4;
     s->shape = POLYGON;
     s->quad_count = plain_quads_of(&corners, &shape, shape.usable, -in_middle, s->quad);
-    s->bend = (double)plain_bend(&s->lobe, shape.middle, (in_middle ? plain_slim : plain_wide)(&shape), shape.reach,
-                                 shape.height);
-    return shape.usable && shape.middle.z > shape.height;
+    s->bend = (double)plain_bend(&s->lobe, shape.middle, (in_middle ? plain_slim : plain_wide)(&shape), &shape.extent);
+    return shape.usable && shape.middle.z > shape.extent.height;
 }
 
 /* 0: it has no points, for it touches the horizon. */

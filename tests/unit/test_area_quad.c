@@ -5,10 +5,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "model/area_cells.h"
 #include "model/area_quad.h"
 #include "statistics.h"
 
@@ -95,10 +97,59 @@ static void every_processor_gives_the_same_bits(void **state)
 #endif
 }
 
+/* Maps of any shape, whether or not they are those of lights. */
+static area_patches any_patches(uint64_t *random)
+{
+    area_patches p = { .is_round = (int)(random_bits(random) & 1U), .turn = between(random, 1e-5, 0.5) };
+    p.count = p.is_round ? 1 : 1 + (int)(random_bits(random) % 5U);
+    const double size = random_log_between(random, 1e-4, 2.0);
+    for (int i = 0; i < p.count; i++)
+        for (int k = 0; k < 3; k++) {
+            p.middle[k][i] = between(random, k < 2 ? -1.0 : 0.0, 1.0);
+            p.u[k][i] = between(random, -size, size);
+            p.v[k][i] = between(random, -size, size);
+            p.w[k][i] = between(random, -0.1 * size, 0.1 * size);
+            p.size[k][i] = between(random, k ? -0.1 : 0.0, k ? 0.1 : 1.0);
+        }
+    return p;
+}
+
+static void every_processor_sums_cells_to_the_same_bits(void **state)
+{
+    (void)state;
+#if defined(__x86_64__)
+    if (!__builtin_cpu_supports("avx2"))
+        skip();
+    uint64_t random = 52;
+    int summed = 0;
+    for (int i = 0; i < 20000; i++) {
+        const area_eye eye = { .is_ggx = (int)(random_bits(&random) & 1U),
+                               .is_schlick = (int)(random_bits(&random) & 1U),
+                               .has_base = (int)(random_bits(&random) & 1U),
+                               .wo = unit_above(&random),
+                               .visible_o = between(&random, 0.1, 1.5),
+                               .alpha_x = (float)random_log_between(&random, 1e-2, 1.0),
+                               .alpha_y = (float)random_log_between(&random, 1e-2, 1.0) };
+        const area_patches patches = any_patches(&random);
+        area_node_sums sums[2];
+        memset(sums, 0, sizeof(sums));
+        const float left = area_cells_sum_base(&eye, &patches, 1e3F, &sums[0]);
+        assert_true(area_cells_sum_avx2(&eye, &patches, 1e3F, &sums[1]) == left);
+        assert_memory_equal(&sums[0], &sums[1], sizeof(sums[0]));
+        summed += left < 1.0F;
+    }
+    printf("%d of 20000 summed\n", summed);
+    assert_true(summed > 5000);
+#else
+    skip();
+#endif
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_processor_gives_the_same_bits),
+        cmocka_unit_test(every_processor_sums_cells_to_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
