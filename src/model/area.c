@@ -85,11 +85,6 @@ static void eval_seen(const model_query *q, const area_light *light, int is_exac
     }
 }
 
-/* Lights that bend the lobe more take more points in cells than by transformed cosines, and far fewer than the exact
- * integral takes, which has to do where those know nothing. */
-#define MOST_BENT 2.2F
-#define MOST_BENT_BESIDE_EXACT 1e3F
-
 void area_eval_any(const model_query *q, area_value *value)
 {
     area_light light;
@@ -100,8 +95,8 @@ void area_eval_any(const model_query *q, area_value *value)
     const float most = fmaxf(q->surface->alpha_x, q->surface->alpha_y);
     const int is_fast = q->material->options.area_light_method != GLINT_AREA_LIGHT_EXACT;
     const int is_exact = !is_fast || fabsf(q->surface->alpha_x - q->surface->alpha_y) > 1e-4F * most;
-    const float left =
-        is_fast ? area_eval_parts(q, &light, is_exact ? MOST_BENT_BESIDE_EXACT : MOST_BENT, value) : 1.0F;
+    /* Transformed cosines take fewer points than cells do, the exact integral far more. */
+    const float left = is_fast && is_exact ? area_eval_parts(q, &light, value) : 1.0F;
     if (!(left > 0.0F))
         return;
     area_value other;

@@ -25,10 +25,9 @@ glint_area_light area_turn(const glint_area_light *from, vec3 x, vec3 y, vec3 z)
 void area_eval(const model_query *q, area_value *value);
 
 /* The same by three methods: few points of a light over which the lobe hardly bends (area_plain.h); points of its parts
- * (area_cells.h); and one for any light. Each returns the share of the result that has to come from those after it.
- * most: how much the whole light may bend the lobe. */
+ * (area_cells.h); and one for any light. Each returns the share of the result that has to come from those after it. */
 float area_eval_plain(const model_query *q, area_value *value);
-float area_eval_parts(const model_query *q, const area_light *light, float most, area_value *value);
+float area_eval_parts(const model_query *q, const area_light *light, area_value *value);
 void area_eval_any(const model_query *q, area_value *value);
 void area_mix(area_value *value, const area_value *other, float share);
 

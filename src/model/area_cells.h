@@ -19,9 +19,8 @@ typedef struct area_patches {
     float turn; /* up to 1/2 */
 } area_patches;
 
-/* Returns the share of the result that is left to another method: 1 where the sums are not set. most: how much the
- * whole light may bend the lobe, beyond which cells are more than another method takes. */
-typedef float area_cells_sum(const area_eye *eye, const area_patches *patches, float most, area_node_sums *sums);
+/* Returns the share of the result that is left to another method: 1 where the sums are not set. */
+typedef float area_cells_sum(const area_eye *eye, const area_patches *patches, area_node_sums *sums);
 
 /* The same source, and so the same bits, for the processor that the library is compiled for and for one with AVX2. */
 area_cells_sum area_cells_sum_base, area_cells_sum_avx2;

@@ -99,14 +99,14 @@ static area_cells_sum *sum_for_this_machine(void)
     return area_cells_sum_base;
 }
 
-float area_eval_parts(const model_query *q, const area_light *light, float most, area_value *value)
+float area_eval_parts(const model_query *q, const area_light *light, area_value *value)
 {
     area_patches patches;
     area_node_sums sums;
     if (!(light->kind == AREA_POLYGON ? map_polygon : map_round)(light, &patches))
         return 1.0F;
     const area_eye eye = area_eye_of(q);
-    const float left = sum_for_this_machine()(&eye, &patches, most, &sums);
+    const float left = sum_for_this_machine()(&eye, &patches, &sums);
     if (left < 1.0F)
         area_shade(q, &sums, value);
     return left;
