@@ -7,11 +7,11 @@
 
 /* Maps of the square to all directions of a light, x and y in [-1, 1].
  *
- * Of a polygon there are some: middle + x u + y v + x y w, over unit corners; seen from the origin their area is
- * size[0]
- * + x size[1] + y size[2] + x y size[3]. Of a cone over an ellipse there is one, by chords: with s and c the sine and
- * cosine of pi turn (1 + x) / 2, middle - 2 s^2 v + 2 s c y u, from its highest direction, the middle, down; its area
- * is size[0] s^2 c^2. */
+ * Of a polygon there are some: middle + x u + y v + x y w, over unit corners. Seen from the origin their area is
+ * size[0] + x size[1] + y size[2] + x y size[3].
+ *
+ * Of a cone over an ellipse there is one, by chords: with s and c the sine and cosine of pi turn (1 + x) / 2, middle -
+ * 2 s^2 v + 2 s c y u, from its highest direction, the middle, down. Its area is size[0] s^2 c^2. */
 typedef struct area_patches {
     int is_round, count;
     float middle[3][AREA_ROOM], u[3][AREA_ROOM], v[3][AREA_ROOM], w[3][AREA_ROOM];
