@@ -64,16 +64,17 @@ typedef struct counting_block {
     counting_spot spot[COUNTING_BLOCK / GLINT_LANES + 1];
 } counting_block;
 
-/* b->first and b->count are set. */
+/* b->first and b->count, at least 1, are set. */
 static inline void counting_place_spots(const counting_points *points, counting_block *b)
 {
     grid_shape shape[COUNTING_BLOCK / GLINT_LANES + 1];
     grid_simplex simplex[COUNTING_BLOCK / GLINT_LANES + 1];
-    for (size_t k = 0; k < b->count; k++) {
+    size_t begun = 0;
+    do {
         grid_ellipse ellipse;
-        b->spot[k].pixel = counting_pixel_of(points, b->first + GLINT_LANES * k, &ellipse);
-        shape[k] = grid_shape_of(&ellipse);
-    }
+        b->spot[begun].pixel = counting_pixel_of(points, b->first + GLINT_LANES * begun, &ellipse);
+        shape[begun] = grid_shape_of(&ellipse);
+    } while (++begun < b->count);
     for (size_t k = 0; k < b->count; k++)
         grid_simplex_of(&shape[k], &simplex[k]);
     for (size_t k = 0; k < b->count; k++) {
