@@ -14,8 +14,8 @@ typedef enum plan_cost {
     PLAN_COST_DICTIONARY,
     PLAN_COST_EXAMPLE,
     PLAN_COST_EXPLICIT_FACET, /* one facet */
-    PLAN_COST_POINTS,         /* a few of a light that is small for the lobe */
-    PLAN_COST_LTC,            /* of one that is large */
+    PLAN_COST_POINTS,         /* a few of a light over which the lobe hardly bends */
+    PLAN_COST_LTC,            /* of any other */
     PLAN_COST_QUADRATURE,
     PLAN_COST_COAT, /* a second layer */
     PLAN_COST_TEXTURE,

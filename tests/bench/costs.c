@@ -98,7 +98,7 @@ static void run(contestant *c)
     c->least_s = fmin(c->least_s, race_now() - start);
 }
 
-/* One that both integrals take points of, and one that is too large for the lobe. */
+/* One that both integrals take points of, and one that stands in the ground, so that the horizon cuts it. */
 static const glint_area_light window = { .kind = GLINT_AREA_RECTANGLE,
                                          .two_sided = 1,
                                          .center = { 0.3F, 0.2F, 1.0F },
@@ -107,9 +107,9 @@ static const glint_area_light window = { .kind = GLINT_AREA_RECTANGLE,
 
 static const glint_area_light wall = { .kind = GLINT_AREA_RECTANGLE,
                                        .two_sided = 1,
-                                       .center = { 0.3F, 0.2F, 1.0F },
+                                       .center = { 0.3F, 1.0F, 0.5F },
                                        .half_x = { 1.0F, 0.0F, 0.0F },
-                                       .half_y = { 0.0F, 0.7F, 0.0F } };
+                                       .half_y = { 0.0F, 0.0F, 1.0F } };
 
 static contestant *enter(contestant *c, plan_cost of, glint_model model, const glint_area_light *area)
 {
