@@ -194,7 +194,7 @@ template <class T> void copy(const element_view &elements, size_t components, st
             std::memcpy(&out[first], element, components * sizeof(T));
 }
 
-// A sum of all that is wrong first: it makes vectors, and looks for the place only where there is one.
+// Counts first, without a branch, and looks for the place only where there is one.
 void check_finite(const std::vector<float> &numbers, size_t components, const std::string &pointer)
 {
     uint32_t wrong = 0;
